@@ -1,0 +1,75 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/spectrum.h"
+#include "core/vector.h"
+
+namespace turbid {
+
+/// What one sample of one pixel saw.
+struct PixelSample {
+  Spectrum radiance;
+  float alpha = 1;
+};
+
+/// The sums over the samples of one pixel in one pass.
+struct PixelSums {
+  double radiance[kChannels] = {};
+  double squares[kChannels] = {};  ///< of the per-sample radiance: for variance and the second moment
+  double alpha = 0;
+
+  void add(const PixelSample& sample) {
+    for (int c = 0; c < kChannels; ++c) {
+      const double value = static_cast<double>(sample.radiance[c]);
+      radiance[c] += value;
+      squares[c] += value * value;
+    }
+    alpha += static_cast<double>(sample.alpha);
+  }
+  void add(const PixelSums& other) {
+    for (int c = 0; c < kChannels; ++c) {
+      radiance[c] += other.radiance[c];
+      squares[c] += other.squares[c];
+    }
+    alpha += other.alpha;
+  }
+};
+
+/// The accumulators of an image (its crop window), row by row from the top. A pass writes into a Film of its own, which is
+/// added to the total when the pass is whole: a pass counts entirely or not at all, so an interrupted render stays exact.
+///
+/// Every pixel receives only its own samples: their positions are drawn from the reconstruction filter's density (filter
+/// importance sampling, Ernst et al. 2006), which has the expectation of a normalised splat, keeps pixels statistically
+/// independent, and needs no order of summation between threads.
+class Film {
+ public:
+  Film() = default;
+  explicit Film(const Vec2i& size) : size_(size), pixels_(static_cast<size_t>(size.x) * static_cast<size_t>(size.y)) {}
+
+  const Vec2i& size() const { return size_; }
+  size_t pixel_count() const { return pixels_.size(); }
+  /// Samples taken of every pixel.
+  uint64_t samples() const { return samples_; }
+
+  PixelSums& pixel(size_t index) { return pixels_[index]; }
+  const PixelSums& pixel(size_t index) const { return pixels_[index]; }
+
+  void clear() {
+    pixels_.assign(pixels_.size(), {});
+    samples_ = 0;
+  }
+  void add_samples(uint64_t n) { samples_ += n; }
+  /// Adds a pass of the same size.
+  void add(const Film& pass) {
+    for (size_t i = 0; i < pixels_.size(); ++i) pixels_[i].add(pass.pixels_[i]);
+    samples_ += pass.samples_;
+  }
+
+ private:
+  Vec2i size_{0, 0};
+  uint64_t samples_ = 0;
+  std::vector<PixelSums> pixels_;
+};
+
+}  // namespace turbid

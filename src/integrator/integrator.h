@@ -1,0 +1,47 @@
+#pragma once
+#include <atomic>
+#include <map>
+#include <string>
+
+#include "image/film.h"
+#include "scene/scene.h"
+
+namespace turbid {
+
+/// What a pass may depend on, and nothing else: the seed and its place in the sequence of samples.
+struct Pass {
+  uint64_t seed = 0;
+  uint64_t first_sample = 0;  ///< of every pixel
+  uint32_t sample_count = 1;  ///< per pixel
+};
+
+/// Told by the render job when a pass should be abandoned: the user interrupts, the time is up. Looked at often.
+class StopFlag {
+ public:
+  void request() { stop_.store(true, std::memory_order_relaxed); }
+  bool requested() const { return stop_.load(std::memory_order_relaxed); }
+
+ private:
+  std::atomic<bool> stop_{false};
+};
+
+/// Counters that integrators keep while rendering, summed over threads: rays cast, samples dropped ... by name.
+using Counters = std::map<std::string, uint64_t>;
+
+/// An image-level algorithm. A render is a sum of independent passes; each is a whole image that depends only on its Pass.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  /// Once, before the first pass: tables, caches, pilots. Must depend on scene and seed alone.
+  virtual void prepare(const Scene& /*scene*/, uint64_t /*seed*/, const StopFlag& /*stop*/) {}
+
+  /// Adds one pass to `film` (cleared, of the scene's crop size). Returns false when stopped half-way: the caller then
+  /// throws the film away.
+  virtual bool render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) = 0;
+
+  /// Counters since construction.
+  virtual Counters counters() const { return {}; }
+};
+
+}  // namespace turbid

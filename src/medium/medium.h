@@ -1,0 +1,47 @@
+#pragma once
+#include <memory>
+
+#include "core/ray.h"
+#include "core/sampler.h"
+#include "core/spectrum.h"
+#include "medium/phase_function.h"
+
+namespace turbid {
+
+/// A free flight drawn by Medium::sample_flight.
+struct Flight {
+  bool collides = false;  ///< false: the flight reaches t_max (or leaves the medium's support)
+  float t = 0;            ///< distance of the collision
+  Spectrum weight;        ///< collision: sigma_s T(t) / pdf_t; passed: T(t_max) / prob. Multiplies the throughput.
+  float probability = 1;  ///< passed: probability of passing under the mixture, for MIS across boundaries
+};
+
+/// What fills a volume. Lengths are scene units, sigma in 1/unit. Immutable, shared between threads.
+class Medium {
+ public:
+  explicit Medium(std::shared_ptr<const PhaseFunction> phase) : phase_(std::move(phase)) {}
+  virtual ~Medium() = default;
+
+  const PhaseFunction& phase() const { return *phase_; }
+
+  /// Draws a free flight along the ray up to ray.t_max (may be infinite). Its distance is drawn from the mixture of the
+  /// channels' densities with weights `mix` (non-negative, sum 1) and the weight divides by that whole mixture, so that no
+  /// channel is ever divided by the density of another alone (NUMERICS 0).
+  virtual Flight sample_flight(const Ray& ray, const Spectrum& mix, Sampler& sampler) const = 0;
+
+  /// Transmittance over the whole ray (exact, or an unbiased estimate), per channel.
+  virtual Spectrum transmittance(const Ray& ray, Sampler& sampler) const = 0;
+
+  /// Largest extinction of any channel anywhere: 1/max_sigma_t is the shortest mean free path.
+  virtual float max_sigma_t() const = 0;
+  /// The same everywhere: sigma_t and albedo below hold for the whole medium.
+  virtual bool is_homogeneous() const = 0;
+  /// Representative (for homogeneous media: exact) extinction and scattering coefficients, 1/unit.
+  virtual Spectrum sigma_t() const = 0;
+  virtual Spectrum sigma_s() const = 0;
+
+ private:
+  std::shared_ptr<const PhaseFunction> phase_;
+};
+
+}  // namespace turbid

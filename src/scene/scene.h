@@ -1,0 +1,107 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/distribution.h"
+#include "emitter/emitter.h"
+#include "geometry/ray_caster.h"
+#include "image/filter.h"
+#include "medium/medium.h"
+#include "sensor/sensor.h"
+#include "surface/bsdf.h"
+
+namespace turbid {
+
+/// One thing in the scene: a shape and what it is made of.
+struct Object {
+  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const Bsdf> bsdf;
+  std::shared_ptr<const Medium> interior, exterior;  ///< null: vacuum
+  bool bounds_media = false;                         ///< interior or exterior was declared: crossing it changes the medium
+  std::shared_ptr<SurfaceEmitter> emitter;           ///< null: does not shine
+  std::string id;                                    ///< name in the scene file, for messages
+
+  /// The medium on the side that `direction` (pointing away from the surface) leads to.
+  const Medium* medium_towards(const Vec3& ng, const Vec3& direction) const {
+    return dot(ng, direction) > 0 ? exterior.get() : interior.get();
+  }
+};
+
+/// The film that a sensor exposes; sizes in pixels.
+struct FilmSettings {
+  Vec2i size{768, 576};
+  Vec2i crop_offset{0, 0};
+  Vec2i crop_size{0, 0};  ///< 0: no crop, the whole film
+  ReconstructionFilter filter;
+  bool alpha = false;     ///< write an alpha channel
+};
+
+/// What a Scene is assembled from. `sensor_medium` is only looked at when `sensor_medium_declared`.
+struct SceneParts {
+  std::vector<Object> objects;
+  std::vector<std::shared_ptr<Emitter>> emitters;  ///< without those of objects
+  std::shared_ptr<const Sensor> sensor;
+  std::shared_ptr<const Medium> sensor_medium;
+  bool sensor_medium_declared = false;
+  FilmSettings film;
+  SamplerKind sampler = SamplerKind::kIndependent;
+  uint32_t sample_count = 16;
+};
+
+/// An emitter chosen for next-event estimation, with its probability.
+struct EmitterChoice {
+  const Emitter* emitter;
+  float prob;
+};
+
+/// The assembled scene: immutable while rendering, shared between threads.
+class Scene {
+ public:
+  explicit Scene(SceneParts parts);
+
+  const std::vector<Object>& objects() const { return parts_.objects; }
+  const Object& object(const Hit& hit) const { return parts_.objects[hit.shape]; }
+  const RayCaster& rays() const { return *rays_; }
+  const std::vector<const Emitter*>& emitters() const { return emitters_; }
+  const std::vector<const EnvironmentEmitter*>& environments() const { return environments_; }
+  const Sensor& sensor() const { return *parts_.sensor; }
+  const FilmSettings& film() const { return parts_.film; }
+  SamplerKind sampler() const { return parts_.sampler; }
+  uint32_t sample_count() const { return parts_.sample_count; }
+
+  /// Chooses an emitter for next-event estimation by its power; empty scenes give null. `u` is rescaled for reuse.
+  EmitterChoice choose_emitter(float& u) const;
+  float emitter_prob(const Emitter& emitter) const;
+
+  /// Medium that the sensor stands in: declared by the file, else found by casting a ray (`medium_at`).
+  const Medium* sensor_medium() const { return sensor_medium_; }
+  /// The medium around p: that on the near side of the first surface that bounds media, seen from p. Null: vacuum.
+  const Medium* medium_at(const Vec3& p) const;
+  /// All media of the scene, each once.
+  const std::vector<const Medium*>& media() const { return media_; }
+  /// False when no straight line that starts inside this medium can reach a light, because every boundary of the medium
+  /// bends or blocks light and no light touches its inside: next-event estimation from there would always be zero.
+  bool can_see_lights(const Medium* medium) const;
+
+  /// Sphere around everything; media that fill unbounded space end at kWorldScale times its radius.
+  const Vec3& center() const { return center_; }
+  float radius() const { return radius_; }
+  /// Distance along the ray to the end of the world, where an unbounded medium stops; 0 outside.
+  float distance_to_world_end(const Ray& ray) const;
+  static constexpr float kWorldScale = 4;
+
+ private:
+  SceneParts parts_;
+  std::unique_ptr<RayCaster> rays_;
+  std::vector<const Emitter*> emitters_;
+  std::vector<const EnvironmentEmitter*> environments_;
+  DiscreteDistribution emitter_distribution_;
+  const Medium* sensor_medium_ = nullptr;
+  std::vector<const Medium*> media_;
+  std::vector<const Medium*> blind_media_;
+  Vec3 center_;
+  float radius_ = 1;
+};
+
+}  // namespace turbid
