@@ -25,8 +25,8 @@ struct AreaSample {
   float pdf_a;  ///< per unit area
 };
 
-/// Geometry alone: a set of surfaces in world space that can be hit, sampled and measured. What it is made of is not its
-/// business (see scene/). Immutable, shared between threads.
+/// Geometry alone: a set of surfaces in world space that can be hit, sampled and measured. What it is made of is not
+/// its business (see scene/). Immutable, shared between threads.
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -45,8 +45,8 @@ class Shape {
   /// Density of sample_area, per unit area: 1 / area().
   float pdf_a() const { return 1 / area(); }
 
-  /// A point for light transport towards `from`, in solid angle at `from` where the shape knows how (a sphere samples the
-  /// cone it fills); `pdf_w` is 1/sr as seen from `from`. Takes two numbers. May be empty (nothing faces `from`).
+  /// A point for light transport towards `from`, in solid angle at `from` where the shape knows how (a sphere samples
+  /// the cone it fills); `pdf_w` is 1/sr as seen from `from`. Takes two numbers. May be empty (nothing faces `from`).
   struct DirectSample {
     SurfacePoint point;
     float pdf_w;

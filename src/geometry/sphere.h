@@ -1,0 +1,42 @@
+#pragma once
+#include "core/transform.h"
+#include "geometry/shape.h"
+
+namespace turbid {
+
+/// A sphere: the unit sphere scaled by `radius`, moved to `center` and mapped by `to_world`, which must be a similarity
+/// (else std::invalid_argument). uv as Mitsuba: u = azimuth/(2 pi) in the object's frame, v = polar angle from +z / pi.
+///
+/// Hits are computed in double precision and re-projected, so a ray that left the sphere by SurfacePoint::leave meets
+/// it again only where it really does.
+class Sphere final : public Shape {
+ public:
+  Sphere(const Vec3& center, float radius, const Transform& to_world = {}, bool flip_normals = false);
+
+  const Vec3& center() const { return center_; }
+  float radius() const { return radius_; }
+
+  Bounds3 bounds() const override;
+  float area() const override { return 4 * kPi * sqr(radius_); }
+  bool is_closed() const override { return true; }
+  SurfacePoint surface_point(const Ray& ray, const Hit& hit) const override;
+  AreaSample sample_area(const Vec2& u) const override;
+  /// From outside: uniform in the cone that the sphere fills; from inside: uniform in area.
+  std::optional<DirectSample> sample_direct(const Vec3& from, const Vec2& u) const override;
+  float pdf_direct_w(const Vec3& from, const SurfacePoint& at) const override;
+  RTCGeometry make_embree_geometry(RTCDevice device) const override;
+  float distance_bound(const Vec3& p, uint32_t primitive) const override;
+
+  /// Distance along the ray to the first crossing with t > 0, or infinity.
+  double intersect(const Vec3& origin, const Vec3& direction) const;
+
+ private:
+  SurfacePoint point_at(const Imath::V3d& unit_normal) const;
+
+  Vec3 center_;
+  float radius_;
+  bool flip_normals_;
+  Imath::V3d axes_[3];  ///< of the object's frame, unit, in world space
+};
+
+}  // namespace turbid
