@@ -11,6 +11,12 @@ target_compile_options(turbid_options INTERFACE
 function(turbid_room name)
   cmake_parse_arguments(ROOM "" "" "BELOW;LINK;PRIVATE_LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+  if(NOT sources)  # a room of headers only, or not furnished yet
+    set(sources ${CMAKE_BINARY_DIR}/empty.cpp)
+    if(NOT EXISTS ${sources})
+      file(WRITE ${sources} "")
+    endif()
+  endif()
   add_library(turbid_${name} STATIC ${sources})
   # include/<room>/<room> -> src/<room>: a room's headers are visible to exactly those targets that link it.
   set(door ${CMAKE_BINARY_DIR}/include/${name})

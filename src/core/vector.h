@@ -2,6 +2,7 @@
 #include <Imath/ImathBox.h>
 #include <Imath/ImathVec.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
