@@ -30,8 +30,13 @@ class Emitter {
 
   /// Can a ray meet it by chance? False for delta lights.
   virtual bool can_be_hit() const = 0;
+  /// A box around every point that light starts from; infinite (the default) for lights at infinity.
+  virtual Bounds3 bounds() const { return Bounds3(Vec3(-kInfinity), Vec3(kInfinity)); }
+
   /// At infinity: seen by rays that leave the scene.
   virtual bool is_environment() const { return false; }
+  /// Environment and directional lights: no straight line from inside a closed boundary meets them.
+  virtual bool is_at_infinity() const { return is_environment(); }
 
   /// Power estimate in W (per channel), used to choose among lights; environment lights: through the scene's disk.
   virtual Spectrum power() const = 0;

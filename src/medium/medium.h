@@ -16,6 +16,8 @@ struct Flight {
   float probability = 1;  ///< passed: probability of passing under the mixture, for MIS across boundaries
 };
 
+class HomogeneousMedium;
+
 /// What fills a volume. Lengths are scene units, sigma in 1/unit. Immutable, shared between threads.
 class Medium {
  public:
@@ -25,8 +27,8 @@ class Medium {
   const PhaseFunction& phase() const { return *phase_; }
 
   /// Draws a free flight along the ray up to ray.t_max (may be infinite). Its distance is drawn from the mixture of the
-  /// channels' densities with weights `mix` (non-negative, sum 1) and the weight divides by that whole mixture, so that no
-  /// channel is ever divided by the density of another alone (NUMERICS 0).
+  /// channels' densities with weights `mix` (non-negative, sum 1) and the weight divides by that whole mixture, so that
+  /// no channel is ever divided by the density of another alone (NUMERICS 0).
   virtual Flight sample_flight(const Ray& ray, const Spectrum& mix, Sampler& sampler) const = 0;
 
   /// Transmittance over the whole ray (exact, or an unbiased estimate), per channel.
@@ -34,8 +36,8 @@ class Medium {
 
   /// Largest extinction of any channel anywhere: 1/max_sigma_t is the shortest mean free path.
   virtual float max_sigma_t() const = 0;
-  /// The same everywhere: sigma_t and albedo below hold for the whole medium.
-  virtual bool is_homogeneous() const = 0;
+  /// This medium when it is the same everywhere, so that sigma_t and sigma_s below hold for all of it; else null.
+  virtual const HomogeneousMedium* as_homogeneous() const { return nullptr; }
   /// Representative (for homogeneous media: exact) extinction and scattering coefficients, 1/unit.
   virtual Spectrum sigma_t() const = 0;
   virtual Spectrum sigma_s() const = 0;

@@ -3,8 +3,8 @@
 namespace turbid {
 
 /// How a medium scatters: a density f(mu) in 1/sr over the sphere, 2 pi int f dmu = 1, where mu is the cosine of the
-/// deflection, the angle between the directions of propagation before and after (mu = 1: straight on). Azimuth is uniform.
-/// Immutable, shared between threads.
+/// deflection, the angle between the directions of propagation before and after (mu = 1: straight on). Azimuth is
+/// uniform. Immutable, shared between threads.
 class PhaseFunction {
  public:
   virtual ~PhaseFunction() = default;

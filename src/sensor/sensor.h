@@ -4,16 +4,16 @@
 
 namespace turbid {
 
-/// A ray from the sensor. Attenuation counts from ray.origin; surfaces and collisions nearer than near_t or beyond ray.t_max
-/// are clipped.
+/// A ray from the sensor. Attenuation counts from ray.origin; surfaces and collisions nearer than near_t or beyond
+/// ray.t_max are clipped.
 struct SensorRay {
   Ray ray;
   float near_t = 0;
   float weight = 1;  ///< factor of the radiance: 1 for the sensors that exist
 };
 
-/// Where pictures are taken from. Film coordinates are in [0,1]^2 over the whole (uncropped) film, x to the right, y down.
-/// Immutable, shared between threads.
+/// Where pictures are taken from. Film coordinates are in [0,1]^2 over the whole (uncropped) film, x to the right, y
+/// down. Immutable, shared between threads.
 class Sensor {
  public:
   virtual ~Sensor() = default;

@@ -1,0 +1,19 @@
+#include "emitter/directional_light.h"
+
+#include <stdexcept>
+
+namespace turbid {
+
+DirectionalLight::DirectionalLight(const Vec3& direction, const Spectrum& irradiance)
+    : direction_(normalize(direction)), irradiance_(irradiance) {
+  if (!(length(direction) > 0)) throw std::invalid_argument("the direction of a directional light is zero");
+}
+
+void DirectionalLight::set_scene_bounds(const Vec3&, float radius) { radius_ = radius; }
+
+std::optional<DirectLightSample> DirectionalLight::sample_direct(const Vec3&, const Vec2&) const {
+  return DirectLightSample{
+      .wi = -direction_, .distance = kInfinity, .position = {}, .weight = irradiance_, .delta = true};
+}
+
+}  // namespace turbid

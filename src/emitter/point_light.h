@@ -1,0 +1,23 @@
+#pragma once
+#include "emitter/emitter.h"
+
+namespace turbid {
+
+/// Shines the same intensity in every direction from one point. Mitsuba's `point`.
+class PointLight final : public Emitter {
+ public:
+  /// Intensity in W/sr.
+  PointLight(const Vec3& position, const Spectrum& intensity) : position_(position), intensity_(intensity) {}
+
+  /// Empty only at the light itself.
+  std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
+  bool can_be_hit() const override { return false; }
+  Bounds3 bounds() const override { return Bounds3(position_); }
+  Spectrum power() const override { return intensity_ * (4 * kPi); }
+
+ private:
+  Vec3 position_;
+  Spectrum intensity_;
+};
+
+}  // namespace turbid

@@ -1,0 +1,23 @@
+#include "sensor/film_plane.h"
+
+#include <stdexcept>
+
+namespace turbid {
+
+FilmPlane film_plane(double x_fov, double aspect, const Vec2& principal_point_offset) {
+  if (!(x_fov > 0 && x_fov < 180))
+    throw std::invalid_argument("the horizontal field of view must lie between 0 and 180 degrees, both excluded");
+  if (!(aspect > 0)) throw std::invalid_argument("the aspect of a film must be positive");
+  const double half_width = std::tan(x_fov * std::numbers::pi / 360);
+  const auto x = static_cast<float>(half_width), y = static_cast<float>(half_width / aspect);
+  const Vec3 across(-2 * x, 0, 0), down(0, -2 * y, 0);
+  return {Vec3(x, y, 1) + across * principal_point_offset.x + down * principal_point_offset.y, across, down};
+}
+
+void check_rigid(const Transform& to_world) {
+  constexpr double kTolerance = 1e-3;  // decimal matrices in scene files
+  if (!(std::abs(to_world.uniform_scale() - 1) < kTolerance))
+    throw std::invalid_argument("the to_world transform of a perspective sensor must not scale or shear");
+}
+
+}  // namespace turbid

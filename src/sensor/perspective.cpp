@@ -1,0 +1,24 @@
+#include "sensor/perspective.h"
+
+#include "sensor/film_plane.h"
+
+namespace turbid {
+
+PerspectiveSensor::PerspectiveSensor(const Transform& to_world, double x_fov, double aspect, const ClipRange& clip,
+                                     const Vec2& principal_point_offset)
+    : origin_(to_world.point(Vec3(0))), clip_(clip) {
+  check(clip);
+  check_rigid(to_world);
+  const FilmPlane plane = film_plane(x_fov, aspect, principal_point_offset);
+  corner_ = to_world.vector(plane.corner);
+  across_ = to_world.vector(plane.across);
+  down_ = to_world.vector(plane.down);
+}
+
+SensorRay PerspectiveSensor::sample_ray(const Vec2& film, const Vec2&) const {
+  const Vec3 towards = corner_ + across_ * film.x + down_ * film.y;
+  const float scale = length(towards);  // distance along the ray for one unit along the axis
+  return {{origin_, towards / scale, clip_.far_clip * scale}, clip_.near_clip * scale};
+}
+
+}  // namespace turbid
