@@ -28,7 +28,8 @@ class StopFlag {
 /// Counters that integrators keep while rendering, summed over threads: rays cast, samples dropped ... by name.
 using Counters = std::map<std::string, uint64_t>;
 
-/// An image-level algorithm. A render is a sum of independent passes; each is a whole image that depends only on its Pass.
+/// An image-level algorithm. A render is a sum of independent passes; each is a whole image that depends only on its
+/// Pass.
 class Integrator {
  public:
   virtual ~Integrator() = default;

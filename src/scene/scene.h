@@ -18,9 +18,9 @@ struct Object {
   std::shared_ptr<const Shape> shape;
   std::shared_ptr<const Bsdf> bsdf;
   std::shared_ptr<const Medium> interior, exterior;  ///< null: vacuum
-  bool bounds_media = false;                         ///< interior or exterior was declared: crossing it changes the medium
-  std::shared_ptr<SurfaceEmitter> emitter;           ///< null: does not shine
-  std::string id;                                    ///< name in the scene file, for messages
+  bool bounds_media = false;                ///< interior or exterior was declared: crossing it changes the medium
+  std::shared_ptr<SurfaceEmitter> emitter;  ///< null: does not shine
+  std::string id;                           ///< name in the scene file, for messages
 
   /// The medium on the side that `direction` (pointing away from the surface) leads to.
   const Medium* medium_towards(const Vec3& ng, const Vec3& direction) const {
@@ -34,7 +34,7 @@ struct FilmSettings {
   Vec2i crop_offset{0, 0};
   Vec2i crop_size{0, 0};  ///< 0: no crop, the whole film
   ReconstructionFilter filter;
-  bool alpha = false;     ///< write an alpha channel
+  bool alpha = false;  ///< write an alpha channel
 };
 
 /// What a Scene is assembled from. `sensor_medium` is only looked at when `sensor_medium_declared`.
@@ -55,6 +55,25 @@ struct EmitterChoice {
   float prob;
 };
 
+/// A light at infinity with the probability that choose_emitter returns it.
+struct ChosenEnvironment {
+  const EnvironmentEmitter* emitter;
+  float prob;
+};
+
+/// What is known beforehand about the space that a medium fills.
+struct Surroundings {
+  const Medium* medium = nullptr;
+  /// Every way out of the medium leads through a closed surface.
+  bool bounded = false;
+  /// No straight line that starts inside can reach a light: every boundary bends or blocks light and no light touches
+  /// the inside. Next-event estimation from there would always be zero.
+  bool blind = false;
+  /// Many mean free paths thick, so that most flights end far from any boundary.
+  bool dense = false;
+  float mean_free_path = 0;  ///< the shortest of any channel
+};
+
 /// The assembled scene: immutable while rendering, shared between threads.
 class Scene {
  public:
@@ -64,7 +83,7 @@ class Scene {
   const Object& object(const Hit& hit) const { return parts_.objects[hit.shape]; }
   const RayCaster& rays() const { return *rays_; }
   const std::vector<const Emitter*>& emitters() const { return emitters_; }
-  const std::vector<const EnvironmentEmitter*>& environments() const { return environments_; }
+  const std::vector<ChosenEnvironment>& environments() const { return environments_; }
   const Sensor& sensor() const { return *parts_.sensor; }
   const FilmSettings& film() const { return parts_.film; }
   SamplerKind sampler() const { return parts_.sampler; }
@@ -72,17 +91,20 @@ class Scene {
 
   /// Chooses an emitter for next-event estimation by its power; empty scenes give null. `u` is rescaled for reuse.
   EmitterChoice choose_emitter(float& u) const;
-  float emitter_prob(const Emitter& emitter) const;
+  /// Probability that choose_emitter returns the emitter of the object that was hit; 0 when it does not shine.
+  float emitter_prob(const Hit& hit) const { return object_emitter_prob_[hit.shape]; }
 
   /// Medium that the sensor stands in: declared by the file, else found by casting a ray (`medium_at`).
   const Medium* sensor_medium() const { return sensor_medium_; }
   /// The medium around p: that on the near side of the first surface that bounds media, seen from p. Null: vacuum.
   const Medium* medium_at(const Vec3& p) const;
   /// All media of the scene, each once.
-  const std::vector<const Medium*>& media() const { return media_; }
-  /// False when no straight line that starts inside this medium can reach a light, because every boundary of the medium
-  /// bends or blocks light and no light touches its inside: next-event estimation from there would always be zero.
-  bool can_see_lights(const Medium* medium) const;
+  const std::vector<Surroundings>& media() const { return media_; }
+  /// What is known about the space that a medium of this scene fills.
+  const Surroundings& surroundings(const Medium* medium) const;
+
+  /// Some surface lets light pass straight on: shadow rays must walk from surface to surface.
+  bool has_null_surfaces() const { return has_null_surfaces_; }
 
   /// Sphere around everything; media that fill unbounded space end at kWorldScale times its radius.
   const Vec3& center() const { return center_; }
@@ -92,14 +114,19 @@ class Scene {
   static constexpr float kWorldScale = 4;
 
  private:
+  void choose_probabilities();
+  void find_media();
+  Surroundings survey(const Medium* medium) const;
+
   SceneParts parts_;
   std::unique_ptr<RayCaster> rays_;
   std::vector<const Emitter*> emitters_;
-  std::vector<const EnvironmentEmitter*> environments_;
+  std::vector<ChosenEnvironment> environments_;
+  std::vector<float> object_emitter_prob_;
   DiscreteDistribution emitter_distribution_;
   const Medium* sensor_medium_ = nullptr;
-  std::vector<const Medium*> media_;
-  std::vector<const Medium*> blind_media_;
+  std::vector<Surroundings> media_;
+  bool has_null_surfaces_ = false;
   Vec3 center_;
   float radius_ = 1;
 };

@@ -1,0 +1,60 @@
+#include "integrator/passage.h"
+
+namespace turbid {
+namespace {
+
+constexpr Passage kBlocked{Spectrum(0.0f), 0};
+
+/// Attenuates along the first `distance` of the ray.
+void attenuate(Passage& passage, Spectrum& throughput, const Medium& medium, const Ray& ray, float distance,
+               Sampler& sampler) {
+  const Spectrum transmittance = medium.transmittance({ray.origin, ray.direction, distance}, sampler);
+  const Spectrum passed = throughput * transmittance;
+  passage.prob *= passed.sum() / throughput.sum();
+  passage.transmittance *= transmittance;
+  throughput = passed;
+}
+
+}  // namespace
+
+Passage pass_empty_space(const Scene& scene, const Ray& ray, SampleCounters& counters) {
+  ++counters.shadow_rays;
+  return scene.rays().occluded(ray) ? kBlocked : Passage{};
+}
+
+Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, Sampler& sampler,
+                      SampleCounters& counters) {
+  Passage passage;
+  if (!scene.has_null_surfaces()) {
+    passage = pass_empty_space(scene, ray, counters);
+    if (medium && passage.prob > 0) {
+      const float distance = std::isfinite(ray.t_max) ? ray.t_max : scene.distance_to_world_end(ray);
+      attenuate(passage, throughput, *medium, ray, distance, sampler);
+    }
+    return passage;
+  }
+  while (true) {
+    ++counters.shadow_rays;
+    const Hit hit = scene.rays().intersect(ray);
+    if (medium) {
+      const float distance = hit ? hit.t : std::isfinite(ray.t_max) ? ray.t_max : scene.distance_to_world_end(ray);
+      attenuate(passage, throughput, *medium, ray, distance, sampler);
+      if (passage.prob == 0) return kBlocked;
+    }
+    if (!hit) return passage;
+
+    const Object& object = scene.object(hit);
+    if (!(object.bsdf->flags() & lobe::kNull)) return kBlocked;
+    const SurfacePoint point = object.shape->surface_point(ray, hit);
+    const Spectrum through = object.bsdf->null_transmission(point, point.to_local(-ray.direction));
+    if (through.is_black()) return kBlocked;
+    passage.transmittance *= through;
+    passage.prob *= null_prob(through);
+    throughput *= through;
+    if (object.bounds_media) medium = object.medium_towards(point.ng, ray.direction);
+    ray.origin = point.leave(ray.direction);
+    ray.t_max -= hit.t;
+  }
+}
+
+}  // namespace turbid

@@ -1,0 +1,30 @@
+#pragma once
+#include "integrator/sampling_integrator.h"
+
+namespace turbid {
+
+/// What a straight line lets through.
+struct Passage {
+  Spectrum transmittance{1.0f};  ///< 0 where something opaque or refractive stands in the way
+  /// Proxy for the probability that a walk which set out in this direction would have come through without an event.
+  /// The walk multiplies its density by the same number, so that multiple importance sampling weighs like with like; it
+  /// may be any function of the line as long as both use it.
+  float prob = 1;
+};
+
+/// Probability of passing straight through a surface that transmits `null_transmission`, as used in Passage::prob.
+inline float null_prob(const Spectrum& null_transmission) { return null_transmission.mean(); }
+
+/// The weights with which a walk of this throughput mixes the channels' distance densities: in proportion to the
+/// throughput, so that a flight never raises the sum over channels by more than the albedo (weights sum to 1).
+inline Spectrum channel_mix(const Spectrum& throughput) { return throughput / throughput.sum(); }
+
+/// Walks along `ray` up to ray.t_max (infinite: to a light at infinity) through null surfaces and media. `throughput`
+/// is that of the walk along this direction (any scale): it sets the mixture of the channels.
+Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, Sampler& sampler,
+                      SampleCounters& counters);
+
+/// The line is free of any surface; media are ignored.
+Passage pass_empty_space(const Scene& scene, const Ray& ray, SampleCounters& counters);
+
+}  // namespace turbid

@@ -1,0 +1,345 @@
+#include "integrator/path_tracer.h"
+
+#include "integrator/passage.h"
+#include "medium/homogeneous.h"
+
+namespace turbid {
+namespace {
+
+/// Power heuristic with exponent 2 (Veach 1997, sect. 9.2.3) for one sample of each of two techniques.
+float mis_weight(float pdf, float other_pdf) {
+  if (pdf == 0) return 0;
+  const float ratio = other_pdf / pdf;
+  return 1 / (1 + ratio * ratio);
+}
+
+/// One path, as it grows. kVolumes: see PathTracer::Kind.
+template <bool kVolumes>
+class Walk {
+ public:
+  Walk(const Scene& scene, const PathSettings& settings, Sampler& sampler, SampleCounters& counters)
+      : scene_(scene), settings_(settings), sampler_(sampler), counters_(counters) {}
+
+  PixelSample run(const SensorRay& camera) {
+    if (settings_.max_depth <= 0) return {Spectrum(0.0f), 0};
+    begin(camera);
+    while (true) {
+      Hit hit;
+      if (kVolumes && medium_ ? !fly(hit) : !cast(hit)) {
+        if (!scatter_in_medium()) break;
+        continue;
+      }
+      if (!hit) {
+        add_environment();
+        break;
+      }
+      if (!arrive_at_surface(hit)) break;
+    }
+    return {radiance_, alpha_};
+  }
+
+ private:
+  void begin(const SensorRay& camera) {
+    ray_ = camera.ray;
+    throughput_ = Spectrum(camera.weight);
+    if constexpr (kVolumes) enter(scene_.sensor_medium());
+    if (camera.near_t > 0) {
+      if (kVolumes && medium_)
+        throughput_ *= medium_->transmittance({ray_.origin, ray_.direction, camera.near_t}, sampler_);
+      ray_ = {ray_.at(camera.near_t), ray_.direction, ray_.t_max - camera.near_t};
+    }
+    last_position_ = ray_.origin;
+  }
+
+  void enter(const Medium* medium) {
+    if (medium == medium_) return;
+    medium_ = medium;
+    if (!medium) return;
+    homogeneous_ = medium->as_homogeneous();
+    surroundings_ = &scene_.surroundings(medium);
+    free_radius2_ = 0;
+  }
+
+  // --- free flights -------------------------------------------------------------------------------------------------
+
+  /// Casts the ray through empty space. Always true: nothing can happen before a surface.
+  bool cast(Hit& hit) {
+    ++counters_.rays;
+    hit = scene_.rays().intersect(ray_);
+    return true;
+  }
+
+  /// Flies through the medium. True when the flight passes it, to `hit` or (empty) out of the scene; false when it
+  /// collides, with ray_.origin moved to the collision.
+  bool fly(Hit& hit) {
+    const Spectrum mix = channel_mix(throughput_);
+    if (homogeneous_) {
+      // The distance first, the cast after: a short flight makes for a short cast, or none within a ball known to be
+      // free.
+      const Flight flight = homogeneous_->flight(kInfinity, mix, sampler_.next_1d());
+      const float t = flight.collides ? flight.t : kInfinity;
+      const Vec3 end = ray_.at(t);
+      if (length_squared(end - free_center_) < free_radius2_) {
+        ++counters_.free_flights;
+        collide(end, flight);
+        return false;
+      }
+      const float limit = end_of_ray();
+      ++counters_.rays;
+      hit = scene_.rays().intersect({ray_.origin, ray_.direction, std::min(t, limit)});
+      if (!hit && t < limit) {
+        collide(end, flight);
+        find_free_ball();
+        return false;
+      }
+      pass(homogeneous_->passage(hit ? hit.t : limit, mix));
+      return true;
+    }
+    ++counters_.rays;
+    hit = scene_.rays().intersect(ray_);
+    const float limit = hit ? hit.t : end_of_ray();
+    const Flight flight = medium_->sample_flight({ray_.origin, ray_.direction, limit}, mix, sampler_);
+    if (flight.collides) {
+      collide(ray_.at(flight.t), flight);
+      return false;
+    }
+    pass(flight);
+    return true;
+  }
+
+  void collide(const Vec3& at, const Flight& flight) {
+    throughput_ *= flight.weight;
+    ray_ = {at, ray_.direction};
+  }
+
+  void pass(const Flight& flight) {
+    throughput_ *= flight.weight;
+    passing_prob_ *= flight.probability;
+  }
+
+  float end_of_ray() const {
+    return surroundings_->bounded ? ray_.t_max : std::min(ray_.t_max, scene_.distance_to_world_end(ray_));
+  }
+
+  /// In a medium that is dense for its size most flights end far from any surface: one query for the distance to the
+  /// nearest surface then replaces several casts.
+  void find_free_ball() {
+    free_radius2_ = 0;
+    if (!surroundings_->dense) return;
+    const float mean_free_path = surroundings_->mean_free_path;
+    const float radius = scene_.rays().clearance(ray_.origin, kFreeBallLimit * mean_free_path);
+    free_center_ = ray_.origin;
+    free_radius2_ = sqr(radius);
+  }
+  static constexpr float kFreeBallLimit = 8;  ///< mean free paths: a walk rarely gets further before it leaves any ball
+
+  // --- events -------------------------------------------------------------------------------------------------------
+
+  bool scatter_in_medium() {
+    ++counters_.collisions;
+    alpha_ = 1;
+    ++order_;
+    if (++depth_ >= settings_.max_depth || order_ > settings_.max_scattering || throughput_.is_black()) return false;
+    const PhaseFunction& phase = medium_->phase();
+    if (!surroundings_->blind) {
+      estimate_direct(ray_.origin, [&](const Vec3& wi) {
+        const float f = phase.eval(dot(ray_.direction, wi));
+        return Bsdf::Eval{Spectrum(f), f};
+      });
+    }
+    const Vec2 u = sampler_.next_2d();
+    const float mu = phase.sample(u.x);
+    ray_.direction = direction_about(ray_.direction, mu, 2 * kPi * u.y);
+    set_out(surroundings_->blind ? 0 : phase.eval(mu));
+    return survives();
+  }
+
+  bool arrive_at_surface(const Hit& hit) {
+    const Object& object = scene_.object(hit);
+    const SurfacePoint point = object.shape->surface_point(ray_, hit);
+    if (object.emitter) add_emission(*object.emitter, scene_.emitter_prob(hit), point);
+
+    const Bsdf& bsdf = *object.bsdf;
+    const lobe::Flags flags = bsdf.flags();
+    const Vec3 wo = -ray_.direction, wo_local = point.to_local(wo);
+    if (kVolumes && flags == (lobe::kNull | lobe::kDelta | lobe::kTransmission)) {
+      const Spectrum through = bsdf.null_transmission(point, wo_local);
+      pass_surface(object, point, hit.t, null_prob(through));
+      throughput_ *= through;
+      return true;
+    }
+
+    // Both normals must agree about the side; where they do not there is no transport, seen from either end.
+    const bool agreed = wo_local.z * dot(wo, point.ng) > 0;
+    if (agreed && (flags & lobe::kSmooth) && depth_ + 1 < settings_.max_depth) {
+      estimate_direct_at_surface(object, point, wo_local);
+    }
+    const float u_lobe = sampler_.next_1d();
+    const auto sample = bsdf.sample(point, wo_local, u_lobe, sampler_.next_2d(), TransportMode::kRadiance);
+    if (!sample) return false;
+    if (kVolumes && (sample->flags & lobe::kNull)) {
+      pass_surface(object, point, hit.t, null_prob(bsdf.null_transmission(point, wo_local)));
+      throughput_ *= sample->weight;
+      return !throughput_.is_black();
+    }
+    const Vec3 wi = point.to_world(sample->direction);
+    const bool straight = sample->flags & lobe::kNull;
+    if (!straight && (!agreed || sample->direction.z * dot(wi, point.ng) <= 0)) return false;
+    alpha_ = 1;
+    throughput_ *= sample->weight;
+    eta_scale_ *= sqr(sample->eta);
+    leave(object, point, wi);
+    set_out(sample->pdf_w);
+    if (++depth_ >= settings_.max_depth || throughput_.is_black()) return false;
+    return survives();
+  }
+
+  /// Goes straight on behind a surface: no event, the last scattering stays the one that chose this direction.
+  void pass_surface(const Object& object, const SurfacePoint& point, float t, float prob) {
+    const float t_max = ray_.t_max - t;
+    passing_prob_ *= prob;
+    leave(object, point, ray_.direction);
+    ray_.t_max = t_max;
+  }
+
+  void leave(const Object& object, const SurfacePoint& point, const Vec3& direction) {
+    if constexpr (kVolumes)
+      if (object.bounds_media) enter(object.medium_towards(point.ng, direction));
+    ray_ = {point.leave(direction), direction};
+    free_radius2_ = 0;
+  }
+
+  /// Begins a new edge whose direction was chosen with density pdf_w; 0: no other technique can choose it.
+  void set_out(float pdf_w) {
+    last_position_ = ray_.origin;
+    last_pdf_w_ = pdf_w;
+    passing_prob_ = 1;
+  }
+
+  /// Russian roulette: survives with the share of the initial importance that is left, so that all survivors weigh
+  /// alike.
+  bool survives() {
+    if (depth_ < settings_.rr_depth) return true;
+    float prob = std::min(1.0f, throughput_.max() * eta_scale_);
+    // A path can be trapped without loss (total reflection, albedo 1): beyond any sensible length it must end some
+    // time.
+    if (depth_ > kTrappedDepth) prob = std::min(prob, 0.95f);
+    if (prob >= 1) return true;
+    if (sampler_.next_1d() >= prob) return false;
+    throughput_ /= prob;
+    return true;
+  }
+  static constexpr int kTrappedDepth = 1 << 14;
+
+  // --- light --------------------------------------------------------------------------------------------------------
+
+  bool order_counts() const { return order_ >= settings_.min_scattering && order_ <= settings_.max_scattering; }
+
+  void add(const Spectrum& value) {
+    if (order_counts()) radiance_ += throughput_ * value;
+  }
+
+  float hit_weight(float light_pdf_w) const {
+    return last_pdf_w_ == 0 ? 1 : mis_weight(last_pdf_w_ * passing_prob_, light_pdf_w);
+  }
+
+  void add_environment() {
+    if (depth_ == 0 && settings_.hide_emitters) return;
+    for (const ChosenEnvironment& environment : scene_.environments()) {
+      alpha_ = 1;
+      const Spectrum Le = environment.emitter->Le(ray_.direction);
+      const float light_pdf =
+          last_pdf_w_ == 0 ? 0 : environment.prob * environment.emitter->pdf_direct_w(ray_.direction);
+      add(Le * hit_weight(light_pdf));
+    }
+  }
+
+  void add_emission(const SurfaceEmitter& emitter, float emitter_prob, const SurfacePoint& point) {
+    if (depth_ == 0 && settings_.hide_emitters) return;
+    const Spectrum Le = emitter.Le(point, -ray_.direction);
+    if (Le.is_black()) return;
+    const float light_pdf = last_pdf_w_ == 0 ? 0 : emitter_prob * emitter.pdf_direct_w(last_position_, point);
+    add(Le * hit_weight(light_pdf));
+  }
+
+  void estimate_direct_at_surface(const Object& object, const SurfacePoint& point, const Vec3& wo_local) {
+    estimate_direct(
+        point.p,
+        [&](const Vec3& wi) {
+          const Vec3 wi_local = point.to_local(wi);
+          if (wi_local.z * dot(wi, point.ng) <= 0) return Bsdf::Eval{};
+          return object.bsdf->eval(point, wo_local, wi_local, TransportMode::kRadiance);
+        },
+        &object, &point);
+  }
+
+  /// Next-event estimation: one light, one point on it. `scatter(wi)` gives the value of the scattering and its
+  /// density.
+  template <class Scatter>
+  void estimate_direct(const Vec3& from, const Scatter& scatter, const Object* object = nullptr,
+                       const SurfacePoint* point = nullptr) {
+    float u_light = sampler_.next_1d();
+    const Vec2 u = sampler_.next_2d();
+    const EmitterChoice choice = scene_.choose_emitter(u_light);
+    if (!choice.emitter || !order_counts()) return;
+    const auto light = choice.emitter->sample_direct(from, u);
+    if (!light) return;
+    const Bsdf::Eval scattered = scatter(light->wi);
+    if (scattered.value.is_black()) return;
+
+    const Spectrum towards = throughput_ * scattered.value;
+    const Ray shadow = shadow_ray(*light, point ? point->leave(light->wi) : from);
+    Passage passage;
+    if constexpr (kVolumes) {
+      const Medium* medium = object && object->bounds_media ? object->medium_towards(point->ng, light->wi) : medium_;
+      passage = pass_straight(scene_, shadow, medium, towards, sampler_, counters_);
+    } else {
+      passage = pass_empty_space(scene_, shadow, counters_);
+    }
+    if (passage.prob == 0) return;
+    const float weight = light->delta ? 1 : mis_weight(choice.prob * light->pdf_w, scattered.pdf_w * passage.prob);
+    radiance_ += towards * passage.transmittance * light->weight * (weight / choice.prob);
+  }
+
+  /// From `origin` to just before the light.
+  static Ray shadow_ray(const DirectLightSample& light, const Vec3& origin) {
+    if (!std::isfinite(light.distance)) return {origin, light.wi};
+    const Vec3 to_light = light.position - origin;
+    const float distance = length(to_light);
+    return {origin, to_light / distance, distance * kBeforeLight};
+  }
+  /// The end of a shadow ray is known to a few units in the last place of its length.
+  static constexpr float kBeforeLight = 1 - 1e-5f;
+
+  const Scene& scene_;
+  const PathSettings& settings_;
+  Sampler& sampler_;
+  SampleCounters& counters_;
+
+  Ray ray_;
+  Spectrum throughput_{1.0f}, radiance_{0.0f};
+  float alpha_ = 0;
+  int depth_ = 0;        ///< edges behind us
+  int order_ = 0;        ///< collisions in media behind us
+  float eta_scale_ = 1;  ///< squared index here / at the sensor: takes the radiance scaling out of the roulette
+
+  const Medium* medium_ = nullptr;
+  const HomogeneousMedium* homogeneous_ = nullptr;
+  const Surroundings* surroundings_ = nullptr;
+  Vec3 free_center_;
+  float free_radius2_ = 0;
+
+  Vec3 last_position_;      ///< where the current direction was chosen ...
+  float last_pdf_w_ = 0;    ///< ... and its density, 1/sr; 0 where next-event estimation could not have found its way
+  float passing_prob_ = 1;  ///< see Passage::prob
+};
+
+}  // namespace
+
+PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
+                                        SampleCounters& counters) const {
+  if (kind_ == Kind::kSurfaces) return Walk<false>(scene, settings_, sampler, counters).run(camera);
+  return Walk<true>(scene, settings_, sampler, counters).run(camera);
+}
+
+}  // namespace turbid

@@ -1,0 +1,39 @@
+#pragma once
+#include <limits>
+
+#include "integrator/sampling_integrator.h"
+
+namespace turbid {
+
+/// Parameters that unidirectional path tracers share.
+struct PathSettings {
+  static constexpr int kUnlimited = std::numeric_limits<int>::max();
+  int max_depth = kUnlimited;       ///< most edges of a path; 1 sees lights alone, 2 adds one scattering
+  int rr_depth = 5;                 ///< edges before Russian roulette begins
+  int min_scattering = 0;           ///< only paths with at least this many collisions in media count
+  int max_scattering = kUnlimited;  ///< ... and at most this many
+  bool hide_emitters = false;       ///< lights are not seen directly
+};
+
+/// Unidirectional path tracing from the sensor: next-event estimation and scattering combined by multiple importance
+/// sampling (power heuristic), Russian roulette on the throughput.
+class PathTracer : public SamplingIntegrator {
+ public:
+  /// What the tracer sees of media and of surfaces that light passes straight through.
+  enum class Kind {
+    kSurfaces,  ///< `path`: media are ignored; passing straight through costs depth and blocks shadow rays
+    kVolumes,   ///< `volpath`: media scatter; straight passage is free for paths and for shadow rays
+  };
+
+  PathTracer(Kind kind, const PathSettings& settings) : kind_(kind), settings_(settings) {}
+
+ protected:
+  PixelSample sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
+                              SampleCounters& counters) const override;
+
+ private:
+  Kind kind_;
+  PathSettings settings_;
+};
+
+}  // namespace turbid

@@ -1,0 +1,141 @@
+#include "scene/scene.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+
+namespace turbid {
+namespace {
+
+/// Power of each emitter, but never less than a share of the average: a light whose power estimate is poor (a dark map,
+/// a distant sun) must stay reachable at a bearable weight.
+DiscreteDistribution distribution_by_power(const std::vector<const Emitter*>& emitters) {
+  constexpr float kLeastShare = 0.1f;
+  std::vector<float> weights;
+  float sum = 0;
+  for (const Emitter* emitter : emitters) {
+    weights.push_back(std::max(0.0f, emitter->power().mean()));
+    sum += weights.back();
+  }
+  const float least = sum > 0 ? kLeastShare * sum / static_cast<float>(weights.size()) : 1;
+  for (float& w : weights) w = std::max(w, least);
+  return DiscreteDistribution(weights);
+}
+
+}  // namespace
+
+Scene::Scene(SceneParts parts) : parts_(std::move(parts)) {
+  if (!parts_.sensor) throw SceneError("the scene has no sensor: nothing says where the picture is taken from");
+  std::vector<std::shared_ptr<const Shape>> shapes;
+  for (const Object& object : parts_.objects) shapes.push_back(object.shape);
+  rays_ = std::make_unique<RayCaster>(std::move(shapes));
+
+  const Bounds3& bounds = rays_->bounds();
+  if (!bounds.isEmpty()) {
+    center_ = bounds.center();
+    radius_ = std::max(length(bounds.max - bounds.min) / 2, std::numeric_limits<float>::min());
+  }
+
+  for (const auto& emitter : parts_.emitters) {
+    emitter->set_scene_bounds(center_, radius_);
+    emitters_.push_back(emitter.get());
+  }
+  for (const Object& object : parts_.objects) {
+    if (object.emitter) emitters_.push_back(object.emitter.get());
+    if (object.bsdf->flags() & lobe::kNull) has_null_surfaces_ = true;
+  }
+  choose_probabilities();
+
+  sensor_medium_ = parts_.sensor_medium_declared ? parts_.sensor_medium.get() : medium_at(parts_.sensor->position());
+  find_media();
+}
+
+void Scene::choose_probabilities() {
+  emitter_distribution_ = distribution_by_power(emitters_);
+  size_t index = 0;
+  for (const auto& emitter : parts_.emitters) {
+    if (emitter->is_environment())
+      environments_.push_back(
+          {static_cast<const EnvironmentEmitter*>(emitter.get()), emitter_distribution_.prob(index)});
+    ++index;
+  }
+  for (const Object& object : parts_.objects)
+    object_emitter_prob_.push_back(object.emitter ? emitter_distribution_.prob(index++) : 0);
+}
+
+void Scene::find_media() {
+  const auto remember = [&](const Medium* medium) {
+    const bool known = std::any_of(media_.begin(), media_.end(), [&](const auto& m) { return m.medium == medium; });
+    if (medium && !known) media_.push_back(survey(medium));
+  };
+  remember(sensor_medium_);
+  for (const Object& object : parts_.objects) {
+    remember(object.interior.get());
+    remember(object.exterior.get());
+  }
+}
+
+Surroundings Scene::survey(const Medium* medium) const {
+  Surroundings result{medium, true, true, false, 1 / medium->max_sigma_t()};
+  // A medium that was declared for the sensor, or lies outside of a shape, may be without end.
+  if (parts_.sensor_medium_declared && medium == sensor_medium_) result.bounded = false;
+  Bounds3 extent;
+  float thinnest = kInfinity;
+  for (const Object& object : parts_.objects) {
+    if (object.exterior.get() == medium) result.bounded = false;
+    if (object.interior.get() != medium) continue;
+    if (!object.shape->is_closed()) result.bounded = false;
+    if (object.bsdf->flags() & lobe::kNull) result.blind = false;
+    const Bounds3 box = object.shape->bounds();
+    const Vec3 size = box.size();
+    thinnest = std::min({thinnest, size.x, size.y, size.z});
+    extent.extendBy(box);
+  }
+  const bool lit_inside = std::any_of(emitters_.begin(), emitters_.end(), [&](const Emitter* emitter) {
+    return !emitter->is_at_infinity() && emitter->bounds().intersects(extent);
+  });
+  if (!result.bounded || lit_inside) result.blind = false;
+  constexpr float kDenseThickness = 8;  // mean free paths across
+  result.dense = result.bounded && thinnest > kDenseThickness * result.mean_free_path;
+  return result;
+}
+
+EmitterChoice Scene::choose_emitter(float& u) const {
+  if (emitters_.empty()) return {nullptr, 0};
+  if (emitters_.size() == 1) return {emitters_[0], 1};
+  const DiscreteSample chosen = emitter_distribution_.sample(u);
+  u = chosen.u;
+  return {emitters_[chosen.index], chosen.prob};
+}
+
+const Medium* Scene::medium_at(const Vec3& p) const {
+  // Any direction tells for closed boundaries; open ones (a water surface) are met by one of six that avoid symmetry
+  // axes.
+  constexpr float kTilt = 0.0317f, kTwist = 0.0173f;
+  const std::array<Vec3, 6> directions = {Vec3{kTilt, kTwist, 1},  Vec3{kTwist, kTilt, -1}, Vec3{kTilt, 1, kTwist},
+                                          Vec3{kTwist, -1, kTilt}, Vec3{1, kTilt, kTwist},  Vec3{-1, kTwist, kTilt}};
+  for (const Vec3& towards : directions) {
+    Ray ray{p, normalize(towards)};
+    while (const Hit hit = rays_->intersect(ray)) {
+      const Object& object = parts_.objects[hit.shape];
+      if (object.bounds_media) return object.medium_towards(hit.ng, -ray.direction);
+      ray.origin = object.shape->surface_point(ray, hit).leave(ray.direction);
+    }
+  }
+  return nullptr;
+}
+
+const Surroundings& Scene::surroundings(const Medium* medium) const {
+  return *std::find_if(media_.begin(), media_.end(), [&](const auto& m) { return m.medium == medium; });
+}
+
+float Scene::distance_to_world_end(const Ray& ray) const {
+  const Vec3 to_center = center_ - ray.origin;
+  const float along = dot(to_center, ray.direction);
+  const float radius = kWorldScale * radius_;
+  const float discriminant = sqr(radius) - (length_squared(to_center) - sqr(along));
+  return discriminant > 0 ? std::max(0.0f, along + std::sqrt(discriminant)) : 0;
+}
+
+}  // namespace turbid
