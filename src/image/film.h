@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/parallel.h"
 #include "core/spectrum.h"
 #include "core/vector.h"
 
@@ -17,6 +18,8 @@ struct PixelSample {
 struct PixelSums {
   double radiance[kChannels] = {};
   double squares[kChannels] = {};  ///< of the per-sample radiance: for variance and the second moment
+  double products[kChannels] =
+      {};  ///< of channel c and the next one, round: RG, GB, BR; for moments in other colour spaces
   double alpha = 0;
 
   void add(const PixelSample& sample) {
@@ -24,6 +27,7 @@ struct PixelSums {
       const double value = static_cast<double>(sample.radiance[c]);
       radiance[c] += value;
       squares[c] += value * value;
+      products[c] += value * static_cast<double>(sample.radiance[(c + 1) % kChannels]);
     }
     alpha += static_cast<double>(sample.alpha);
   }
@@ -31,17 +35,19 @@ struct PixelSums {
     for (int c = 0; c < kChannels; ++c) {
       radiance[c] += other.radiance[c];
       squares[c] += other.squares[c];
+      products[c] += other.products[c];
     }
     alpha += other.alpha;
   }
 };
 
-/// The accumulators of an image (its crop window), row by row from the top. A pass writes into a Film of its own, which is
-/// added to the total when the pass is whole: a pass counts entirely or not at all, so an interrupted render stays exact.
+/// The accumulators of an image (its crop window), row by row from the top. A pass writes into a Film of its own, which
+/// is added to the total when the pass is whole: a pass counts entirely or not at all, so an interrupted render stays
+/// exact.
 ///
-/// Every pixel receives only its own samples: their positions are drawn from the reconstruction filter's density (filter
-/// importance sampling, Ernst et al. 2006), which has the expectation of a normalised splat, keeps pixels statistically
-/// independent, and needs no order of summation between threads.
+/// Every pixel receives only its own samples: their positions are drawn from the reconstruction filter's density
+/// (filter importance sampling, Ernst et al. 2006), which has the expectation of a normalised splat, keeps pixels
+/// statistically independent, and needs no order of summation between threads.
 class Film {
  public:
   Film() = default;
@@ -56,17 +62,21 @@ class Film {
   const PixelSums& pixel(size_t index) const { return pixels_[index]; }
 
   void clear() {
-    pixels_.assign(pixels_.size(), {});
+    parallel_for(
+        pixels_.size(), [this](size_t i) { pixels_[i] = {}; }, kGrain);
     samples_ = 0;
   }
   void add_samples(uint64_t n) { samples_ += n; }
   /// Adds a pass of the same size.
   void add(const Film& pass) {
-    for (size_t i = 0; i < pixels_.size(); ++i) pixels_[i].add(pass.pixels_[i]);
+    parallel_for(
+        pixels_.size(), [&](size_t i) { pixels_[i].add(pass.pixels_[i]); }, kGrain);
     samples_ += pass.samples_;
   }
 
  private:
+  static constexpr size_t kGrain = 4096;  ///< pixels per task
+
   Vec2i size_{0, 0};
   uint64_t samples_ = 0;
   std::vector<PixelSums> pixels_;
