@@ -8,9 +8,9 @@
 
 namespace turbid {
 
-/// Which quantity travels along the sampled direction. Radiance is scaled by the squared ratio of indices at a refractive
-/// boundary (L/eta^2 is the invariant), importance is not (Veach 1997, sect. 5.2). A walk that starts at the sensor gathers
-/// radiance (kRadiance); a walk that starts at an emitter spreads it (kImportance).
+/// Which quantity travels along the sampled direction. Radiance is scaled by the squared ratio of indices at a
+/// refractive boundary (L/eta^2 is the invariant), importance is not (Veach 1997, sect. 5.2). A walk that starts at the
+/// sensor gathers radiance (kRadiance); a walk that starts at an emitter spreads it (kImportance).
 enum class TransportMode : uint8_t { kRadiance, kImportance };
 
 /// What happened at a surface; a set of bits.
@@ -20,24 +20,25 @@ inline constexpr Flags kNone = 0;
 inline constexpr Flags kReflection = 1;    ///< stays on its side
 inline constexpr Flags kTransmission = 2;  ///< changes sides
 inline constexpr Flags kDelta = 4;         ///< one direction only: no density exists (never a pdf of 1)
-inline constexpr Flags kNull = 8;          ///< goes straight on as if nothing were there; set with kDelta | kTransmission
-inline constexpr Flags kSmooth = 16;       ///< has a density
+inline constexpr Flags kNull = 8;     ///< goes straight on as if nothing were there; set with kDelta | kTransmission
+inline constexpr Flags kSmooth = 16;  ///< has a density
 }  // namespace lobe
 
 /// A direction chosen by a BSDF. All directions are local (z = shading normal) and point away from the surface.
 struct BsdfSample {
-  Vec3 direction;      ///< the chosen one
-  Spectrum weight;     ///< f |cos| / pdf_w, or for delta lobes the lobe's factor / its probability
-  float pdf_w = 0;     ///< 1/sr, all smooth lobes that could have made this direction together; 0 when kDelta is set
+  Vec3 direction;   ///< the chosen one
+  Spectrum weight;  ///< f |cos| / pdf_w, or for delta lobes the lobe's factor / its probability
+  float pdf_w = 0;  ///< 1/sr, all smooth lobes that could have made this direction together; 0 when kDelta is set
   lobe::Flags flags = lobe::kNone;
-  float eta = 1;       ///< index on the side of the chosen direction / index on the given side; 1 for reflection and null
+  float eta = 1;  ///< index on the side of the chosen direction / index on the given side; 1 for reflection and null
 };
 
 /// The bidirectional scattering distribution of a surface point. Immutable, shared between threads.
 ///
 /// `given` is the direction that the walk knows, `chosen` the one that it goes on along; for mode kRadiance given = wo
-/// (towards the sensor) and chosen = wi, for kImportance given = wi and chosen = wo. f is not symmetric for refraction: the
-/// mode says which factor applies. The correction for shading normals (Veach 1997, sect. 5.3) belongs to the walk, not here.
+/// (towards the sensor) and chosen = wi, for kImportance given = wi and chosen = wo. f is not symmetric for refraction:
+/// the mode says which factor applies. The correction for shading normals (Veach 1997, sect. 5.3) belongs to the walk,
+/// not here.
 class Bsdf {
  public:
   virtual ~Bsdf() = default;
@@ -59,8 +60,8 @@ class Bsdf {
   /// Factor of the light that passes straight on (null lobes): next-event estimation multiplies it along shadow rays.
   virtual Spectrum null_transmission(const SurfacePoint&, const Vec3& /*given*/) const { return Spectrum(0.0f); }
 
-  /// Hemispherical reflectance (plus transmittance for scattering boundaries) of the smooth part, roughly; for layers and
-  /// advice, not for light transport.
+  /// Hemispherical reflectance (plus transmittance for scattering boundaries) of the smooth part, roughly; for layers
+  /// and advice, not for light transport.
   virtual Spectrum albedo(const SurfacePoint&) const { return Spectrum(1.0f); }
 };
 
