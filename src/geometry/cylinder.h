@@ -21,6 +21,8 @@ class Cylinder final : public Shape {
 
   /// Distance along the ray to the first crossing with t > 0, or infinity.
   double intersect(const Vec3& origin, const Vec3& direction) const;
+  /// Normal on the outside, at a point of the cylinder.
+  Vec3 normal_at(const Imath::V3d& p) const;
 
  private:
   SurfacePoint point_at(double cos_phi, double sin_phi, double z) const;

@@ -20,6 +20,8 @@ class Disk final : public Shape {
 
   /// Distance along the ray to the disk with t > 0, or infinity.
   double intersect(const Vec3& origin, const Vec3& direction) const;
+  /// Normal on the outside, at a point of the disk.
+  Vec3 normal_at(const Imath::V3d& p) const;
 
  private:
   SurfacePoint point_at(double x, double y) const;

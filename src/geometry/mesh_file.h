@@ -22,4 +22,7 @@ MeshData load_obj(const std::filesystem::path& path, const MeshFileOptions& opti
 /// Throws FileError.
 MeshData load_ply(const std::filesystem::path& path, const MeshFileOptions& options = {});
 
+/// What both readers do last: names the mesh, maps it to the world, drops or computes normals.
+void finish_loaded_mesh(MeshData& mesh, const std::filesystem::path& path, const MeshFileOptions& options);
+
 }  // namespace turbid

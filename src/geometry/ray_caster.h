@@ -3,11 +3,13 @@
 #include <vector>
 
 #include "geometry/shape.h"
+#include "geometry/sphere.h"
 
 namespace turbid {
 
-/// All shapes of a scene in one Embree bounding-volume hierarchy: the nearest hit, occlusion, and free distances.
-/// Building is deterministic; queries are const and thread-safe.
+/// All shapes of a scene: the nearest hit, occlusion, and free distances. Shapes lie in one Embree bounding-volume
+/// hierarchy, but for a few spheres, which are faster to ask one by one. Building is deterministic; queries are const
+/// and thread-safe.
 class RayCaster {
  public:
   explicit RayCaster(std::vector<std::shared_ptr<const Shape>> shapes);
@@ -26,10 +28,89 @@ class RayCaster {
   const Bounds3& bounds() const { return bounds_; }
 
  private:
+  struct LoneSphere {
+    const Sphere* sphere;
+    uint32_t shape;
+  };
+  /// Up to so many spheres stay outside the hierarchy: each costs a ray about as much as a step of the traversal.
+  static constexpr size_t kMaxLoneSpheres = 4;
+
+  float tree_clearance(const Vec3& p, float limit) const;
+
   std::vector<std::shared_ptr<const Shape>> shapes_;
+  std::vector<LoneSphere> spheres_;
   Bounds3 bounds_;
   RTCDevice device_ = nullptr;
-  RTCScene scene_ = nullptr;
+  RTCScene scene_ = nullptr;  ///< null when nothing lies in it
 };
+
+inline Hit RayCaster::intersect(const Ray& ray) const {
+  Hit hit;
+  hit.t = ray.t_max;
+  for (const LoneSphere& lone : spheres_) {
+    const double t = lone.sphere->intersect(ray.origin, ray.direction);
+    if (t < static_cast<double>(hit.t)) {
+      hit.t = std::max(static_cast<float>(t), std::numeric_limits<float>::min());
+      hit.shape = lone.shape;
+    }
+  }
+  const uint32_t lone_sphere = hit.shape;
+  if (scene_ != nullptr) {
+    alignas(16) RTCRayHit cast;
+    cast.ray = {ray.origin.x,
+                ray.origin.y,
+                ray.origin.z,
+                0,
+                ray.direction.x,
+                ray.direction.y,
+                ray.direction.z,
+                0,
+                hit.t,
+                ~0u,
+                0,
+                0};
+    cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene_, &context, &cast);
+    if (cast.hit.geomID != RTC_INVALID_GEOMETRY_ID)
+      return {.t = cast.ray.tfar,
+              .shape = cast.hit.geomID,
+              .primitive = cast.hit.primID,
+              .barycentric = {cast.hit.u, cast.hit.v},
+              .ng = {cast.hit.Ng_x, cast.hit.Ng_y, cast.hit.Ng_z}};
+  }
+  if (lone_sphere == RTC_INVALID_GEOMETRY_ID) return {};
+  const auto& sphere = static_cast<const Sphere&>(*shapes_[lone_sphere]);
+  hit.ng = sphere.normal_at(Imath::V3d(ray.origin) + Imath::V3d(ray.direction) * static_cast<double>(hit.t));
+  return hit;
+}
+
+inline bool RayCaster::occluded(const Ray& ray) const {
+  for (const LoneSphere& lone : spheres_)
+    if (lone.sphere->intersect(ray.origin, ray.direction) < static_cast<double>(ray.t_max)) return true;
+  if (scene_ == nullptr) return false;
+  alignas(16) RTCRay cast{ray.origin.x,
+                          ray.origin.y,
+                          ray.origin.z,
+                          0,
+                          ray.direction.x,
+                          ray.direction.y,
+                          ray.direction.z,
+                          0,
+                          ray.t_max,
+                          ~0u,
+                          0,
+                          0};
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_, &context, &cast);
+  return cast.tfar < 0;
+}
+
+inline float RayCaster::clearance(const Vec3& p, float limit) const {
+  for (const LoneSphere& lone : spheres_) limit = std::min(limit, lone.sphere->distance_bound(p, 0));
+  return scene_ == nullptr || !(limit > 0) ? limit : tree_clearance(p, limit);
+}
 
 }  // namespace turbid

@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "core/transform.h"
 #include "geometry/shape.h"
 
@@ -29,6 +31,8 @@ class Sphere final : public Shape {
 
   /// Distance along the ray to the first crossing with t > 0, or infinity.
   double intersect(const Vec3& origin, const Vec3& direction) const;
+  /// Normal on the outside, at a point of the sphere.
+  Vec3 normal_at(const Imath::V3d& p) const;
 
  private:
   SurfacePoint point_at(const Imath::V3d& unit_normal) const;
@@ -38,5 +42,22 @@ class Sphere final : public Shape {
   bool flip_normals_;
   Imath::V3d axes_[3];  ///< of the object's frame, unit, in world space
 };
+
+inline double Sphere::intersect(const Vec3& origin, const Vec3& direction) const {
+  const double fx = double{origin.x} - double{center_.x}, fy = double{origin.y} - double{center_.y},
+               fz = double{origin.z} - double{center_.z};
+  const double dx = double{direction.x}, dy = double{direction.y}, dz = double{direction.z};
+  // a t^2 + 2 b t + c = 0; the sign of c tells the side that the origin is on.
+  const double a = dx * dx + dy * dy + dz * dz, b = fx * dx + fy * dy + fz * dz;
+  const double c = fx * fx + fy * fy + fz * fz - sqr(double{radius_});
+  const double discriminant = b * b - a * c;
+  if (c > 0) {
+    if (b >= 0 || discriminant < 0) return std::numeric_limits<double>::infinity();
+    return c / (std::sqrt(discriminant) - b);
+  }
+  const double root = std::sqrt(std::max(discriminant, 0.0));
+  const double t = b > 0 ? -c / (b + root) : (root - b) / a;
+  return t > 0 ? t : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace turbid
