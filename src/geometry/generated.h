@@ -9,8 +9,9 @@
 
 namespace turbid {
 
-/// Meshes made by code, for scenes that ship without files. All have smooth vertex normals and uvs; all but make_grid
-/// are closed. They stand around the y axis (up) unless said otherwise. Wrong arguments throw std::invalid_argument.
+/// Meshes made by code, for scenes that ship without files. All have smooth vertex normals; all but make_grid are
+/// closed, all but the icospheres have uvs. They stand around the y axis (up) unless said otherwise. Wrong arguments
+/// throw std::invalid_argument.
 
 /// A sphere of subdivided icosahedra: 20 * 4^subdivisions triangles of nearly equal size. subdivisions <= 10.
 MeshData make_icosphere(float radius, int subdivisions);
