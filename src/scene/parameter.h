@@ -45,7 +45,7 @@ struct Range {
   bool contains(double v) const {
     return std::isfinite(v) && (open_min ? v > min : v >= min) && (open_max ? v < max : v <= max);
   }
-  /// "at least 0", "in [0, 1]", "in (-1, 1)"; "a finite number" without limits.
+  /// "at least 0", "above 0", "in [0, 1]", "in (-1, 1)"; "finite" without limits.
   std::string describe() const;
 };
 inline constexpr Range kAnyNumber{};

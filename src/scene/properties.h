@@ -1,7 +1,5 @@
 #pragma once
-#include <functional>
 #include <map>
-#include <set>
 
 #include "scene/parameter.h"
 
@@ -26,10 +24,12 @@ class Properties {
   int64_t integer(const std::string& name) const;
   float number(const std::string& name) const;
   std::string string(const std::string& name) const;
-  /// The file that a kFile parameter names, found in the search folders. Throws FileError when it does not exist.
+  /// The file that a kFile parameter names, found in the search folders. Throws SceneError when it does not exist.
   std::filesystem::path file(const std::string& name) const;
   Vec3 vector(const std::string& name) const;  ///< points too
   Spectrum spectrum(const std::string& name) const;
+  /// Refuses a spectrum (from a constant texture, say) that is out of the parameter's range.
+  void check_range(const std::string& name, const Spectrum& spectrum) const;
   Transform transform(const std::string& name) const;
   /// True when the value is a string rather than a number (kIor, kTransformOrString).
   bool is_string(const std::string& name) const;
@@ -37,7 +37,7 @@ class Properties {
   /// The plugin inside given for this parameter, or null.
   const SceneNode* child(const std::string& name) const;
 
-  /// Refuses the parameter's value, where the file gives it: "'g' of phase 'hg': <message>".
+  /// Refuses the parameter's value, where the file gives it: "'g' of phase 'hg' <message>".
   [[noreturn]] void refuse(const std::string& name, const std::string& message) const;
 
  private:
@@ -45,19 +45,25 @@ class Properties {
     const NamedValue* value = nullptr;
     const Child* child = nullptr;
   };
+
   const Parameter& parameter(const std::string& name) const;
-  /// The value given, or the default's text.
-  Value value(const std::string& name) const;
+  /// The value given, or the default, in the parameter's type.
+  Value value(const Parameter& parameter) const;
+  const Parameter* parameter_for(const Child& child) const;
   void match_values();
   void match_children();
-  void check_values() const;
+  void report_unknown() const;
+  void check(const Parameter& parameter) const;
 
   const SceneNode* node_;
   const std::vector<Parameter>* list_;
   const SceneDocument* document_;
   std::map<std::string, Given> given_;
-  std::vector<std::string> unknown_;  ///< descriptions of what the list does not know
-  SourceLocation first_unknown_;
+  struct Unknown {
+    std::string what, name;
+    SourceLocation where;
+  };
+  std::vector<Unknown> unknown_;
 };
 
 }  // namespace turbid

@@ -1,0 +1,52 @@
+#include "scene/document.h"
+
+namespace turbid {
+
+const char* to_string(Category category) {
+  switch (category) {
+    case Category::kScene:
+      return "scene";
+    case Category::kShape:
+      return "shape";
+    case Category::kBsdf:
+      return "bsdf";
+    case Category::kEmitter:
+      return "emitter";
+    case Category::kMedium:
+      return "medium";
+    case Category::kPhase:
+      return "phase";
+    case Category::kTexture:
+      return "texture";
+    case Category::kVolume:
+      return "volume";
+    case Category::kSensor:
+      return "sensor";
+    case Category::kFilm:
+      return "film";
+    case Category::kSampler:
+      return "sampler";
+    case Category::kFilter:
+      return "rfilter";
+    case Category::kIntegrator:
+      return "integrator";
+  }
+  return "?";
+}
+
+std::string describe_type(const Value& value) {
+  static constexpr const char* kNames[] = {"a text",   "a boolean", "an integer", "a float",
+                                           "a string", "a vector",  "a spectrum", "a transform"};
+  return kNames[value.index()];
+}
+
+std::filesystem::path SceneDocument::resolve(const std::string& name) const {
+  const std::filesystem::path path(name);
+  if (path.is_absolute()) return path;
+  std::error_code ignored;
+  for (const auto& folder : search_folders)
+    if (std::filesystem::exists(folder / path, ignored)) return (folder / path).lexically_normal();
+  return path;
+}
+
+}  // namespace turbid
