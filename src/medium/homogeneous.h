@@ -20,10 +20,10 @@ class HomogeneousMedium final : public Medium {
 
   /// The flight that the number u in [0,1) stands for. u picks the channel by `mix` and is rescaled to draw the
   /// distance, which keeps the stratification of a low-discrepancy u; distances reach 16 mean free paths (u has 24
-  /// bits). With c the picked channel, T_i = exp(-sigma_t,i t):
-  ///   collision: weight = sigma_s,i T_i / sum_j mix_j sigma_t,j T_j;   passed: T_i / probability, probability = sum_j
-  ///   mix_j T_j.
-  /// Channels with sigma_t = 0 always pass. Where all channels have the same sigma_t the exponentials cancel.
+  /// bits). With T_i = exp(-sigma_t,i t) for each channel i:
+  ///   collision: weight_i = sigma_s,i T_i / sum_j mix_j sigma_t,j T_j
+  ///   passed:    weight_i = T_i / probability, probability = sum_j mix_j T_j
+  /// A channel with sigma_t = 0 always passes. Where all channels have the same sigma_t the exponentials cancel.
   Flight flight(float t_max, const Spectrum& mix, float u) const {
     return grey_ ? grey_flight(t_max, u) : chromatic_flight(t_max, mix, u);
   }
@@ -57,7 +57,7 @@ class HomogeneousMedium final : public Medium {
 
  private:
   Flight grey_flight(float t_max, float u) const {
-    const float t = -std::log1p(-u) * mean_free_path_[0];
+    const float t = -std::log(1 - u) * mean_free_path_[0];  // 1 - u is exact: u has 24 bits
     // NaN (u = 0 and no extinction) passes as well.
     if (t < t_max) return {true, t, albedo_, 1};
     return passage(t_max, Spectrum(1.0f));
@@ -67,12 +67,12 @@ class HomogeneousMedium final : public Medium {
     int picked = 0;
     while (picked + 1 < kChannels && u >= mix[picked]) u -= mix[picked++];
     while (mix[picked] <= 0 && picked > 0) u = kOneMinusEpsilon * mix[--picked];  // mix summed to a little less than 1
-    const float rescaled = std::min(u / mix[picked], kOneMinusEpsilon);
-    const float t = -std::log1p(-rescaled) * mean_free_path_[picked];
+    const float survival = 1 - std::min(u / mix[picked], kOneMinusEpsilon);       // the picked channel's transmittance
+    const float t = -std::log(survival) * mean_free_path_[picked];
     if (!(t < t_max)) return passage(t_max, mix);
-    // The picked channel's transmittance is known, which saves an exponential and keeps the density above zero.
+    // Knowing one transmittance saves an exponential and keeps the density above zero.
     Spectrum arrived;
-    for (int c = 0; c < kChannels; ++c) arrived[c] = c == picked ? 1 - rescaled : std::exp(-sigma_t_[c] * t);
+    for (int c = 0; c < kChannels; ++c) arrived[c] = c == picked ? survival : std::exp(-sigma_t_[c] * t);
     const float pdf_t = (mix * sigma_t_ * arrived).sum();
     return {true, t, sigma_s_ * arrived / pdf_t, 1};
   }
