@@ -12,7 +12,7 @@ std::optional<DirectLightSample> AreaLight::sample_direct(const Vec3& from, cons
   if (!(dot(sample->point.ng, wi) < 0)) return std::nullopt;
   return DirectLightSample{.wi = wi,
                            .distance = distance,
-                           .position = sample->point.p,
+                           .position = sample->point.leave(-wi),  // off the light itself, so that it does not shade itself
                            .weight = radiance_->eval(sample->point) / sample->pdf_w,
                            .pdf_w = sample->pdf_w};
 }
