@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <vector>
 
 #include "core/frame.h"
 #include "surface/microfacet.h"
@@ -52,6 +53,8 @@ class EnergyCompensation {
     const EnergyTable *low = nullptr, *high = nullptr;
     float t = 0;  ///< weight of `high`
 
+    /// m of any direction at this roughness.
+    float missing_at(const Vec3& direction) const;
     /// f |cos| in importance mode, without colour.
     float value(const Vec3& chosen) const;
     /// Density of sample(), given that this lobe was picked: cosine-weighted on the side that its share picks.
@@ -60,8 +63,6 @@ class EnergyCompensation {
     Vec3 sample(float u_lobe, const Vec2& u) const;
   };
   Lobe at(float alpha, const Vec3& given) const;
-  /// Mean missing energy on the outside, for coloured conductors.
-  float mean_outside(const Lobe& lobe) const;
 
  private:
   float eta_ = 0;

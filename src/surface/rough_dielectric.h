@@ -29,6 +29,7 @@ class RoughDielectric final : public Bsdf {
 
  private:
   struct Lobes;
+  Lobes lobes(const SurfacePoint& point, const Vec3& given) const;
   Eval evaluate(const SurfacePoint& point, const Lobes& lobes, const Vec3& given, const Vec3& chosen, const Vec3& m,
                 TransportMode mode) const;
 
