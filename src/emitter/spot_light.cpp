@@ -9,7 +9,7 @@ float radians(float degrees) { return degrees * (kPi / 180); }
 
 SpotLight::SpotLight(const Transform& to_world, const Spectrum& intensity, float cutoff_angle, float beam_width,
                      std::shared_ptr<const Texture> texture)
-    : to_world_(to_world),
+    : to_local_(to_world.inverse()),
       position_(to_world.point(Vec3(0))),
       intensity_(intensity),
       cutoff_(radians(cutoff_angle)),
@@ -28,7 +28,7 @@ SpotLight::SpotLight(const Transform& to_world, const Spectrum& intensity, float
 }
 
 Spectrum SpotLight::intensity(const Vec3& direction) const {
-  const Vec3 local = normalize(to_world_.inverse().vector(direction));
+  const Vec3 local = normalize(to_local_.vector(direction));
   if (!(local.z > cos_cutoff_)) return Spectrum();
   const float falloff = local.z >= cos_beam_ ? 1 : std::max(0.0f, (cutoff_ - std::acos(local.z)) * inverse_transition_);
   if (!texture_) return intensity_ * falloff;

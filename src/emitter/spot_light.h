@@ -28,7 +28,7 @@ class SpotLight final : public Emitter {
   Spectrum intensity(const Vec3& direction) const;
 
  private:
-  Transform to_world_;
+  Transform to_local_;
   Vec3 position_;
   Spectrum intensity_;
   float cutoff_, beam_;  ///< radians
