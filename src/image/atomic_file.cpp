@@ -66,11 +66,13 @@ struct PartFile {
   }
 };
 
-void write_all(int fd, std::span<const char> bytes, const std::string& path) {
-  for (size_t done = 0; done < bytes.size();) {
-    const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno != EINTR) fail(path, "cannot be written");
-    if (n > 0) done += static_cast<size_t>(n);
+void write_all(int fd, std::initializer_list<std::span<const char>> pieces, const std::string& path) {
+  for (const std::span<const char> bytes : pieces) {
+    for (size_t done = 0; done < bytes.size();) {
+      const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
+      if (n < 0 && errno != EINTR) fail(path, "cannot be written");
+      if (n > 0) done += static_cast<size_t>(n);
+    }
   }
 }
 
@@ -90,15 +92,19 @@ bool exists_but_is_no_regular_file(const std::string& path) {
 }  // namespace
 
 void write_file_atomically(const std::string& path, std::span<const char> bytes) {
+  write_file_atomically(path, {bytes});
+}
+
+void write_file_atomically(const std::string& path, std::initializer_list<std::span<const char>> pieces) {
   const std::string target = followed(path);
   if (exists_but_is_no_regular_file(target)) {
     const Descriptor fd(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
     if (!fd) fail(path, "cannot be written");
-    return write_all(fd.get(), bytes, path);
+    return write_all(fd.get(), pieces, path);
   }
   const PartFile part(target);
   try {
-    write_all(part.fd.get(), bytes, path);
+    write_all(part.fd.get(), pieces, path);
     struct stat old {};
     if (::stat(target.c_str(), &old) == 0 && ::fchmod(part.fd.get(), old.st_mode & 07777) != 0)
       fail(path, "cannot keep its permissions");

@@ -1,4 +1,5 @@
 #pragma once
+#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -9,6 +10,8 @@ namespace turbid {
 /// one. Symbolic links are followed; what is not a regular file (a device, a pipe) is written to directly. Throws
 /// FileError.
 void write_file_atomically(const std::string& path, std::span<const char> bytes);
+/// The same from several pieces, one after the other.
+void write_file_atomically(const std::string& path, std::initializer_list<std::span<const char>> pieces);
 
 /// Throws FileError when `path` could not be replaced: no such folder, no permission, a folder of that name. Called
 /// before hours of work, leaves nothing behind.

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/parallel.h"
@@ -60,6 +61,10 @@ class Film {
 
   PixelSums& pixel(size_t index) { return pixels_[index]; }
   const PixelSums& pixel(size_t index) const { return pixels_[index]; }
+
+  /// All pixels, and the same to restore them from a checkpoint.
+  std::span<const PixelSums> pixels() const { return pixels_; }
+  std::span<PixelSums> pixels() { return pixels_; }
 
   void clear() {
     parallel_for(

@@ -1,0 +1,17 @@
+#pragma once
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+namespace turbid {
+
+/// Runs f() with exactly `threads` threads for every parallel_for inside (more than there are cores, if asked for); 0
+/// leaves the choice to the machine.
+template <class F>
+auto with_threads(int threads, const F& f) {
+  if (threads <= 0) return f();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute(f);
+}
+
+}  // namespace turbid
