@@ -9,12 +9,12 @@ namespace turbid {
 
 /// A direction towards a light, chosen by an emitter for next-event estimation.
 struct DirectLightSample {
-  Vec3 wi;            ///< unit, from the receiving point towards the light
-  float distance = 0; ///< to the point on the light; infinite for lights at infinity
-  Vec3 position;      ///< the point on the light (undefined for lights at infinity)
-  Spectrum weight;    ///< Le / pdf_w for lights with area, or intensity / distance^2 (irradiance) for delta lights
-  float pdf_w = 0;    ///< 1/sr at the receiving point; 0 when delta is true
-  bool delta = false; ///< point, spot, directional: no other technique can find it
+  Vec3 wi;             ///< unit, from the receiving point towards the light
+  float distance = 0;  ///< to the point on the light; infinite for lights at infinity
+  Vec3 position;       ///< the point on the light (undefined for lights at infinity)
+  Spectrum weight;     ///< Le / pdf_w for lights with area, or intensity / distance^2 (irradiance) for delta lights
+  float pdf_w = 0;     ///< 1/sr at the receiving point; 0 when delta is true
+  bool delta = false;  ///< point, spot, directional: no other technique can find it
 };
 
 /// A source of light. Immutable after `set_scene_bounds`, shared between threads.

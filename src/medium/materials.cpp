@@ -11,9 +11,9 @@ constexpr std::string_view kWang = "Wang 2020 (S1), Table 1";
 constexpr std::string_view kJensen = "Jensen 2001, Fig. 5";
 constexpr std::string_view kNarasimhan = "Narasimhan 2006";
 
-/// S1 prints albedo, mean free path and g. Its lengths carry no unit; read in millimetres its skin and marble are Jensen's
-/// Skin1 and Marble, so millimetres they are. (Its milk is then Narasimhan's regular milk diluted as it was measured, with
-/// 1/mm for 0.01/mm.)
+/// S1 prints albedo, mean free path and g. Its lengths carry no unit; read in millimetres its skin and marble are
+/// Jensen's Skin1 and Marble, so millimetres they are. (Its milk is then Narasimhan's regular milk diluted as it was
+/// measured, with 1/mm for 0.01/mm.)
 constexpr Material from_wang(std::string_view name, const Spectrum& albedo, const Spectrum& mean_free_path, float g,
                              bool reduced, std::optional<float> eta) {
   const Spectrum sigma_s = albedo / mean_free_path;
