@@ -22,7 +22,8 @@ enum class SpectralUse {
 /// gamut are clamped with a warning.
 Spectrum curve_to_rgb(const SpectralCurve& curve, SpectralUse use);
 
-/// Linear Rec. 709 of the same value at every wavelength: grey, but for emission, where equal energy is a little purple.
+/// Linear Rec. 709 of the same value at every wavelength: grey, but for emission, where equal energy is a little
+/// purple.
 Spectrum constant_to_rgb(double value, SpectralUse use);
 
 }  // namespace turbid

@@ -28,8 +28,8 @@ const char* to_string(ParameterType type) {
       return "float or material";
     case ParameterType::kTransform:
       return "transform";
-    case ParameterType::kTransformOrString:
-      return "transform or string";
+    case ParameterType::kFloatOrString:
+      return "float or string";
     case ParameterType::kBsdf:
       return "bsdf";
     case ParameterType::kEmitter:

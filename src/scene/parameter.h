@@ -21,7 +21,7 @@ enum class ParameterType {
   kTexture,   ///< as kSpectrum, or a <texture>
   kIor,       ///< index of refraction: a number, or the name of a material
   kTransform,
-  kTransformOrString,
+  kFloatOrString,
   // Plugins inside the plugin; their name in the file does not matter unless several parameters have the same type.
   kBsdf,
   kEmitter,

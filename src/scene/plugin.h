@@ -13,7 +13,7 @@ namespace turbid {
 template <class Product, class... Context>
 struct Plugin {
   std::string name;
-  std::vector<std::string> aliases;
+  std::vector<std::string> aliases{};
   std::string summary;
   std::vector<Parameter> parameters;
   std::function<Product(const Properties&, Context&...)> make;

@@ -38,11 +38,10 @@ bool fits(ParameterType type, const Value& value) {
     case ParameterType::kTexture:
       return number || std::holds_alternative<Spectrum>(value);
     case ParameterType::kIor:
+    case ParameterType::kFloatOrString:
       return number || text;
     case ParameterType::kTransform:
       return std::holds_alternative<Transform>(value);
-    case ParameterType::kTransformOrString:
-      return text || std::holds_alternative<Transform>(value);
     default:
       return false;
   }
@@ -64,10 +63,10 @@ Value read_as(ParameterType type, const std::string& text, const SourceLocation&
     case ParameterType::kTexture:
       return read_rgb(text, where);
     case ParameterType::kTransform:
-    case ParameterType::kTransformOrString:
       if (text == "identity") return Transform();
       break;
     case ParameterType::kIor:
+    case ParameterType::kFloatOrString:
       if (text.find_first_not_of("0123456789.+-e ") == std::string::npos) return read_number(text, where);
       break;
     default:
@@ -243,6 +242,11 @@ Value Properties::value(const Parameter& known) const {
 }
 
 bool Properties::has(const std::string& name) const { return given_.contains(parameter(name).name); }
+
+bool Properties::has_value(const std::string& name) const {
+  const std::string& text = parameter(name).default_text;
+  return has(name) || (text != kOptional && text != kRequired);
+}
 
 SourceLocation Properties::where(const std::string& name) const {
   const auto given = given_.find(name);

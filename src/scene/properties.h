@@ -17,6 +17,8 @@ class Properties {
   const SceneNode& node() const { return *node_; }
   /// Does the file (or command line) give it?
   bool has(const std::string& name) const;
+  /// Is it given, or does it have a default?
+  bool has_value(const std::string& name) const;
   /// Where it is given, or the plugin itself.
   SourceLocation where(const std::string& name) const;
 
@@ -31,7 +33,7 @@ class Properties {
   /// Refuses a spectrum (from a constant texture, say) that is out of the parameter's range.
   void check_range(const std::string& name, const Spectrum& spectrum) const;
   Transform transform(const std::string& name) const;
-  /// True when the value is a string rather than a number (kIor, kTransformOrString).
+  /// True when the value is a string rather than a number (kIor, kFloatOrString).
   bool is_string(const std::string& name) const;
 
   /// The plugin inside given for this parameter, or null.

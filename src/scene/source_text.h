@@ -18,8 +18,8 @@ class SourceText {
   /// Line and column of a byte offset, both from 1; columns count characters of UTF-8, not bytes.
   SourceLocation locate(size_t offset) const;
 
-  /// Where the value of an attribute begins, in the tag whose name starts at `tag`; the tag itself when the attribute is
-  /// not written there.
+  /// Where the value of an attribute begins, in the tag whose name starts at `tag`; the tag itself when the attribute
+  /// is not written there.
   SourceLocation locate_attribute(size_t tag, const std::string& attribute) const;
 
  private:

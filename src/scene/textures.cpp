@@ -1,0 +1,93 @@
+// Textures: quantities that vary over a surface; and volumes, of which only constant ones exist.
+#include "scene/builder.h"
+#include "texture/bitmap.h"
+#include "texture/checkerboard.h"
+#include "texture/constant.h"
+
+namespace turbid {
+namespace {
+
+using TextureTable = PluginTable<TexturePtr, Builder>;
+using enum ParameterType;
+
+TexturePtr constant(const Spectrum& value) { return std::make_shared<ConstantTexture>(value); }
+
+TexturePtr make_bitmap(const Properties& p, Builder& builder) {
+  BitmapSettings settings;
+  settings.filter = p.string("filter_type") == "nearest" ? BitmapFilter::kNearest : BitmapFilter::kBilinear;
+  const std::string wrap = p.string("wrap_mode");
+  settings.wrap = wrap == "mirror" ? BitmapWrap::kMirror : wrap == "clamp" ? BitmapWrap::kClamp : BitmapWrap::kRepeat;
+  settings.raw = p.boolean("raw");
+  settings.to_uv = UvTransform(p.transform("to_uv"));
+  return std::make_shared<BitmapTexture>(builder.file(p, "filename"), settings);
+}
+
+const Parameter kToUv{"to_uv", kTransform, "identity", "maps surface parameters before the look-up"};
+
+}  // namespace
+
+const TextureTable& texture_table() {
+  static const TextureTable table(
+      Category::kTexture,
+      {{.name = "constant",
+        .aliases = {"uniform"},
+        .summary = "The same value everywhere.",
+        .parameters = {{"value", kSpectrum, "1", "the value"}},
+        .make = [](const Properties& p, Builder& b) { return constant(b.spectrum(p, "value")); }},
+       {.name = "rgb",
+        .aliases = {"srgb"},
+        .summary = "The same colour everywhere.",
+        .parameters = {{"color", kSpectrum, kRequired, "linear RGB"},
+                       {"unbounded", kBoolean, "false",
+                        "accepted; values above 1 are refused where they make no sense"}},
+        .make = [](const Properties& p, Builder& b) { return constant(b.spectrum(p, "color")); }},
+       {.name = "d65",
+        .aliases = {"srgb_d65"},
+        .summary = "White light of standard illuminant D65: white in RGB.",
+        .parameters = {{"color", kSpectrum, "1", "colour that multiplies it, linear RGB"},
+                       {"scale", kFloat, "1", "factor"}},
+        .make = [](const Properties& p, Builder& b) { return constant(b.spectrum(p, "color") * p.number("scale")); }},
+       {.name = "bitmap",
+        .summary = "A picture over the uv square.",
+        .parameters = {{"filename", kFile, kRequired, "EXR, PNG, JPEG, BMP, TGA or HDR"},
+                       {"raw", kBoolean, "false", "the file holds plain numbers: no sRGB decoding"},
+                       {.name = "filter_type",
+                        .type = kString,
+                        .default_text = "bilinear",
+                        .meaning = "between pixels",
+                        .choices = {"bilinear", "nearest"}},
+                       {.name = "wrap_mode",
+                        .type = kString,
+                        .default_text = "repeat",
+                        .meaning = "beyond the picture",
+                        .choices = {"repeat", "mirror", "clamp"}},
+                       kToUv,
+                       {"accel", kBoolean, "true", "accepted; no effect"},
+                       {"format", kString, "variant", "accepted; no effect"}},
+        .make = make_bitmap},
+       {.name = "checkerboard",
+        .summary = "Squares of two colours, two by two in the uv square.",
+        .parameters = {{"color0", kTexture, "0.4", "where both or neither of u and v lie in the upper half"},
+                       {"color1", kTexture, "0.2", "elsewhere"},
+                       kToUv},
+        .make =
+            [](const Properties& p, Builder& b) {
+              return std::make_shared<CheckerboardTexture>(b.texture(p, "color0"), b.texture(p, "color1"),
+                                                           UvTransform(p.transform("to_uv")));
+            }}},
+      {"mesh_attribute", "volume", "regular", "irregular", "blackbody", "rawconstant", "sunsky", "normalmap"});
+  return table;
+}
+
+const TextureTable& volume_table() {
+  static const TextureTable table(
+      Category::kVolume,
+      {{.name = "constvolume",
+        .summary = "The same value everywhere.",
+        .parameters = {{"value", kSpectrum, "1", "the value"}},
+        .make = [](const Properties& p, Builder& b) { return constant(b.spectrum(p, "value")); }}},
+      {"gridvolume", "openvdb", "nanovdb"});
+  return table;
+}
+
+}  // namespace turbid
