@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "core/parallel.h"
-#include "core/warp.h"
 #include "surface/fresnel.h"
 #include "surface/gauss_legendre.h"
 
@@ -39,6 +38,19 @@ double single_scattering_albedo(const MicrofacetDistribution& distribution, floa
   return sum;
 }
 
+/// Integral of 2 m(mu) mu dmu = 4 m(t) t^3 dt, t = sqrt(mu), over the first `part` of the cell from node i to i + 1,
+/// where m goes linearly from m0 to m1. In every such piece the integrand is a polynomial of degree 4: three points are
+/// exact.
+double cell_integral(size_t i, double part, double m0, double m1) {
+  static const GaussLegendre rule(3);
+  double sum = 0;
+  for (size_t j = 0; j < rule.size(); ++j) {
+    const double x = rule.node(j) * part, t = (double(i) + x) / (EnergyTable::kNodes - 1);
+    sum += rule.weight(j) * 4 * std::lerp(m0, m1, x) * t * t * t;
+  }
+  return sum * part / (EnergyTable::kNodes - 1);
+}
+
 /// Roughnesses of the tables between which a textured roughness is interpolated.
 constexpr size_t kAlphaNodes = 12;
 float alpha_node(size_t k) { return sqr(static_cast<float>(k) / (kAlphaNodes - 1)); }
@@ -55,20 +67,30 @@ EnergyTable::EnergyTable(MicrofacetType type, float alpha, float eta) {
     const double seen = single_scattering_albedo(distribution, mu, side == 0 ? eta : 1 / eta, rule);
     missing_[side][i] = static_cast<float>(std::clamp(1 - seen, 0.0, 1.0));
   });
-  // The mean of the interpolated function itself, so that what the lobe gives back is exactly what the table says: in
-  // every interval of t the integrand 2 m(t) t^2 2t is a polynomial of degree 4.
-  const GaussLegendre exact(3);
+  // The mean of the interpolated function itself, so that what the lobe gives back is exactly what the table says.
   for (size_t side = 0; side < sides; ++side) {
     double sum = 0;
     for (size_t i = 0; i + 1 < kNodes; ++i) {
-      for (size_t j = 0; j < exact.size(); ++j) {
-        const double t = (double(i) + exact.node(j)) / (kNodes - 1);
-        const double m = std::lerp(double(missing_[side][i]), double(missing_[side][i + 1]), exact.node(j));
-        sum += exact.weight(j) / (kNodes - 1) * 4 * m * t * t * t;
-      }
+      sum += cell_integral(i, 1, double(missing_[side][i]), double(missing_[side][i + 1]));
+      cumulative_[side][i + 1] = static_cast<float>(sum);
     }
     mean_[side] = static_cast<float>(sum);
   }
+}
+
+float EnergyTable::sample_cosine(int side, float u) const {
+  const auto& sums = cumulative_[static_cast<size_t>(side)];
+  const auto& nodes = missing_[static_cast<size_t>(side)];
+  const double target = double(u) * double(mean(side));
+  const auto above = std::upper_bound(sums.begin() + 1, sums.end() - 1, static_cast<float>(target));
+  const auto cell = static_cast<size_t>(above - sums.begin()) - 1;
+  const double rest = target - double(sums[cell]);
+  double low = 0, high = 1;
+  for (int i = 0; i < 26; ++i) {
+    const double middle = (low + high) / 2;
+    (cell_integral(cell, middle, double(nodes[cell]), double(nodes[cell + 1])) < rest ? low : high) = middle;
+  }
+  return static_cast<float>(sqr((double(cell) + (low + high) / 2) / (kNodes - 1)));
 }
 
 std::shared_ptr<const EnergyTable> EnergyTable::shared(MicrofacetType type, float alpha, float eta) {
@@ -134,14 +156,17 @@ float EnergyCompensation::Lobe::value(const Vec3& chosen) const {
   return missing * share[side] * missing_at(chosen) * inverse_mean[side] * std::abs(chosen.z) * kInvPi;
 }
 
-float EnergyCompensation::Lobe::pdf_w(const Vec3& chosen) const {
-  return share[chosen.z > 0 ? 0 : 1] * std::abs(chosen.z) * kInvPi;
-}
+float EnergyCompensation::Lobe::pdf_w(const Vec3& chosen) const { return missing > 0 ? value(chosen) / missing : 0; }
 
 Vec3 EnergyCompensation::Lobe::sample(float u_lobe, const Vec2& u) const {
-  Vec3 direction = square_to_cosine_hemisphere(u);
-  if (u_lobe >= share[0]) direction.z = -direction.z;
-  return direction;
+  const bool outside = u_lobe < share[0];
+  const int side = outside ? 0 : 1;
+  // Between two tables the density is their mixture, weighted by their means.
+  const float rescaled = outside ? u_lobe / share[0] : (u_lobe - share[0]) / (1 - share[0]);
+  const float prob_high = t * high->mean(side) * inverse_mean[outside ? 0 : 1];
+  const float cosine = (rescaled < prob_high ? high : low)->sample_cosine(side, u.x);
+  const float sine = safe_sqrt(1 - cosine * cosine), phi = 2 * kPi * u.y;
+  return {sine * std::cos(phi), sine * std::sin(phi), outside ? cosine : -cosine};
 }
 
 }  // namespace turbid

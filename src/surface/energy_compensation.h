@@ -19,6 +19,8 @@ namespace turbid {
 /// = mean_0.
 class EnergyTable {
  public:
+  static constexpr size_t kNodes = 64;
+
   /// eta = interior / exterior index; 0: only the outside, perfectly reflecting.
   EnergyTable(MicrofacetType type, float alpha, float eta);
 
@@ -27,12 +29,14 @@ class EnergyTable {
 
   /// m_side(|cosine|).
   float missing(int side, float cosine) const;
+  /// A cosine with density 2 m_side(mu) mu / mean_side; one number. mean_side must not be 0.
+  float sample_cosine(int side, float u) const;
   /// mean_side.
   float mean(int side) const { return mean_[static_cast<size_t>(side)]; }
 
  private:
-  static constexpr size_t kNodes = 64;
-  std::array<std::array<float, kNodes>, 2> missing_{};  ///< over the square root of the cosine
+  std::array<std::array<float, kNodes>, 2> missing_{};     ///< over the square root of the cosine
+  std::array<std::array<float, kNodes>, 2> cumulative_{};  ///< part of the mean below each node
   std::array<float, 2> mean_{};
 };
 
@@ -57,7 +61,7 @@ class EnergyCompensation {
     float missing_at(const Vec3& direction) const;
     /// f |cos| in importance mode, without colour.
     float value(const Vec3& chosen) const;
-    /// Density of sample(), given that this lobe was picked: cosine-weighted on the side that its share picks.
+    /// Density of sample(), given that this lobe was picked: value() / missing.
     float pdf_w(const Vec3& chosen) const;
     /// Direction; u_lobe picks the side.
     Vec3 sample(float u_lobe, const Vec2& u) const;
