@@ -13,8 +13,8 @@ struct Hit {
   float t = kInfinity;
   uint32_t shape = RTC_INVALID_GEOMETRY_ID;  ///< index in the RayCaster's list of shapes
   uint32_t primitive = 0;
-  Vec2 barycentric;
-  Vec3 ng;  ///< not normalised, on the outside of the shape
+  Vec2 barycentric{0, 0};
+  Vec3 ng{0, 0, 0};  ///< not normalised, on the outside of the shape
 
   explicit operator bool() const { return shape != RTC_INVALID_GEOMETRY_ID; }
 };

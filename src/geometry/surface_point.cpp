@@ -11,7 +11,7 @@ float nudge(float x, float offset) {
 }  // namespace
 
 Vec3 SurfacePoint::leave(const Vec3& direction) const {
-  const Vec3 offset = ng * (dot(direction, ng) > 0 ? error : -error);
+  const Vec3 offset = ng * (leads_outside(ng, direction) ? error : -error);
   const Vec3 moved = p + offset;
   return {nudge(moved.x, offset.x), nudge(moved.y, offset.y), nudge(moved.z, offset.z)};
 }

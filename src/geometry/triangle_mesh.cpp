@@ -81,6 +81,7 @@ TriangleMesh::TriangleMesh(MeshData data, bool flip_normals) : mesh_(std::move(d
   settle_orientation();
   if (flip_normals) flip_mesh(mesh_);
   for (const uint32_t i : mesh_.indices) bounds_.extendBy(mesh_.positions[i]);
+  edge_slack_ = find_edge_slack();
   // Embree reads 16 bytes of the last vertex too.
   mesh_.positions.reserve(mesh_.positions.size() + 1);
 }
@@ -150,6 +151,19 @@ void TriangleMesh::settle_orientation() {
     for (Vec3& n : mesh_.normals) n = -n;
 }
 
+double TriangleMesh::find_edge_slack() const {
+  constexpr double kEdgeRoundings = 4;
+  float squared = 0;
+  for (size_t i = 0; i < mesh_.indices.size(); i += 3)
+    for (size_t k = 0; k < 3; ++k)
+      squared = std::max(squared, length_squared(mesh_.positions[mesh_.indices[i + (k + 1) % 3]] -
+                                                 mesh_.positions[mesh_.indices[i + k]]));
+  // Beyond the range of squares in float the coordinates themselves bound it.
+  const double longest =
+      std::isfinite(squared) ? std::sqrt(static_cast<double>(squared)) : 2 * static_cast<double>(kLargestCoordinate);
+  return kEdgeRoundings * static_cast<double>(kUnitRoundoff) * longest;
+}
+
 bool TriangleMesh::is_closed() const {
   std::call_once(closed_once_, [&] { closed_ = edges_are_paired(mesh_); });
   return closed_;
@@ -177,28 +191,47 @@ Vec3 TriangleMesh::eval_attribute(const MeshAttribute& attribute, const SurfaceP
   return result;
 }
 
-SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& b) const {
+SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& barycentric) const {
   const uint32_t* i = &mesh_.indices[3 * size_t{triangle}];
   const Vec3 v0 = mesh_.positions[i[0]], v1 = mesh_.positions[i[1]], v2 = mesh_.positions[i[2]];
-  // The position in double and rounded once: what remains is the rounding to float.
+  // In double and rounded once: what remains is the rounding of the position to float.
   const V3d origin(v0), edge1 = V3d(v1) - origin, edge2 = V3d(v2) - origin;
-  const V3d exact = origin + edge1 * b.x + edge2 * b.y;
   const V3d n = edge1.cross(edge2);
   const double twice_area = n.length();
 
+  // A ray cast decides on which side of the triangle it starts by dot(v0 - origin, Ng) / |Ng| in float. The rounding of
+  // that is a few units in the last place of |v0 - origin|, times 1 plus the relative error of the cross product Ng,
+  // which Embree takes of two edges of which one is the shortest: large only for triangles with three nearly parallel
+  // edges. Starting further away than this keeps it right; edge_slack_ keeps it off the widened neighbours too.
+  constexpr double kCastRoundings = 6;
+  const auto b1 = static_cast<double>(barycentric.x), b2 = static_cast<double>(barycentric.y);
+  const double squared1 = edge1.length2(), squared2 = edge2.length2(), squared3 = (edge2 - edge1).length2();
+  const double longest = std::sqrt(std::max({squared1, squared2, squared3}));
+  const double slenderness = longest * std::sqrt(std::min({squared1, squared2, squared3})) / twice_area;
+  const double cast_error =
+      kCastRoundings * static_cast<double>(kUnitRoundoff) * (1 + slenderness) * (edge1 * b1 + edge2 * b2).length();
+  const Vec3 extent(std::max({std::abs(v0.x), std::abs(v1.x), std::abs(v2.x)}),
+                    std::max({std::abs(v0.y), std::abs(v1.y), std::abs(v2.y)}),
+                    std::max({std::abs(v0.z), std::abs(v1.z), std::abs(v2.z)}));
+
   SurfacePoint s;
+  s.error = rounding_error(extent) + static_cast<float>(cast_error + edge_slack_);
+
+  // A point nearer to an edge than a few errors could be moved, by its own rounding or by leave(), beyond the
+  // neighbouring triangle. It is taken back into this one: at a distance of k errors from its edges it stays on the
+  // right side of all neighbours that meet this triangle at more than atan(1/k). The height over an edge is at least
+  // twice_area / longest.
+  constexpr double kEdgeErrors = 8, kLargestMargin = 0.25;
+  const double margin = std::min(kEdgeErrors * static_cast<double>(s.error) * longest / twice_area, kLargestMargin);
+  Vec2 b = barycentric;
+  if (static_cast<double>(std::min({b.x, b.y, 1 - b.x - b.y})) < margin)
+    b = Vec2(static_cast<float>(margin)) + b * static_cast<float>(1 - 3 * margin);
+
+  const V3d exact = origin + edge1 * static_cast<double>(b.x) + edge2 * static_cast<double>(b.y);
   s.primitive = triangle;
   s.barycentric = b;
-  s.p = Vec3(static_cast<float>(exact.x), static_cast<float>(exact.y), static_cast<float>(exact.z));
+  s.p = Vec3(exact);
   s.ng = Vec3(n * (1 / twice_area));
-  // A ray cast decides on which side of the triangle it starts by dot(v0 - origin, Ng) / |Ng| in float. The rounding of
-  // that is a few units in the last place of |v0 - origin|, at most the longest edge L, and, by the rounding of the
-  // cross product Ng, of L |e1||e2| / |Ng|: large for slivers. Starting further away than this keeps it right.
-  constexpr float kCastRoundings = 6;
-  const double squared1 = edge1.length2(), squared2 = edge2.length2();
-  const double longest = std::sqrt(std::max({squared1, squared2, (edge2 - edge1).length2()}));
-  const double slenderness = std::sqrt(squared1 * squared2) / twice_area;
-  s.error = rounding_error(s.p) + kCastRoundings * kUnitRoundoff * static_cast<float>(longest * (1 + slenderness));
 
   s.uv = b;
   const Frame fallback(s.ng);
