@@ -7,7 +7,7 @@ namespace turbid {
 
 /// How a mesh file is to be read; the defaults are Mitsuba's, but for flip_tex_coords, where formats differ.
 struct MeshFileOptions {
-  Transform to_world;
+  Transform to_world{};
   bool face_normals = false;     ///< drop the normals of the file and compute none: facets
   bool flip_tex_coords = false;  ///< v becomes 1 - v; Mitsuba's default is true for OBJ, false for PLY
 };
