@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "core/spectrum.h"
 #include "core/vector.h"
 
@@ -20,7 +22,7 @@ inline FresnelDielectric fresnel_dielectric(float cos_incident, float eta) {
   const float a = cos_incident - eta * cos_transmit, b = cos_incident + eta * cos_transmit;
   const float c = eta * cos_incident - cos_transmit, d = eta * cos_incident + cos_transmit;
   const float denominator = b * d;
-  return {0.5f * (sqr(a * d) + sqr(c * b)) / sqr(denominator), cos_transmit};
+  return {std::min(1.0f, 0.5f * (sqr(a * d) + sqr(c * b)) / sqr(denominator)), cos_transmit};
 }
 
 /// Reflectance of a conductor for unpolarised light coming from a dielectric, per channel (Moeller 1988, "Optics";

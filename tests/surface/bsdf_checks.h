@@ -163,7 +163,7 @@ inline Estimate sampled_energy(const Bsdf& bsdf, const Vec3& given, int samples 
 }
 
 /// The same by quadrature over all directions: smooth lobes only.
-inline double integrated_energy(const Bsdf& bsdf, const Vec3& given, double tolerance = 1e-4) {
+inline double integrated_energy(const Bsdf& bsdf, const Vec3& given, double tolerance = 1e-3) {
   const SurfacePoint point;
   return integrate_sphere(
       [&](const Vec3& chosen) {

@@ -70,6 +70,48 @@ TEST(Bsdf, IsEmptyAtGrazingAngles) {
   }
 }
 
+/// Any index, roughness and direction: finite, never negative, densities never NaN.
+TEST(Bsdf, RandomExtremesStayFinite) {
+  const SurfacePoint point;
+  Rng rng(23);
+  const auto log_uniform = [&](double low, double high) {
+    return static_cast<float>(low * std::pow(high / low, rng.next_double()));
+  };
+  for (int i = 0; i < 300; ++i) {
+    const float index = i % 10 == 0 ? std::nextafter(1.0f, 2.0f) : log_uniform(0.05, 20);
+    const auto type = i % 2 ? MicrofacetType::kGgx : MicrofacetType::kBeckmann;
+    const Roughness r = roughness(type, log_uniform(1e-5, 3), i % 3 ? 0 : log_uniform(1e-5, 3), i % 4 != 0);
+    std::vector<BsdfPtr> bsdfs = {
+        std::make_shared<Dielectric>(index, 1.0f), std::make_shared<ThinDielectric>(index, 1.0f),
+        std::make_shared<RoughDielectric>(index, 1.0f, r, nullptr, nullptr, i % 30 == 0),
+        std::make_shared<RoughConductor>(constant(log_uniform(1e-3, 20)), constant(log_uniform(1e-3, 20)), r, nullptr,
+                                         i % 30 == 0),
+        std::make_shared<Plastic>(index, 1.0f, constant(1))};
+    for (int j = 0; j < 60; ++j) {
+      const Vec3 given =
+          direction((j % 2 ? 1 : -1) * double(j % 3 ? log_uniform(1e-9, 1) : rng.next_float()), 6 * rng.next_double());
+      Numbers n(rng);
+      if (j == 0) n.lobe = 0;
+      if (j == 1) n.lobe = kOneMinusEpsilon;
+      for (const BsdfPtr& bsdf : bsdfs) {
+        for (const TransportMode mode : {TransportMode::kRadiance, TransportMode::kImportance}) {
+          const auto sample = bsdf->sample(point, given, n.lobe, n.u, mode);
+          if (!sample) continue;
+          ASSERT_TRUE(sample->weight.is_finite() && sample->weight.min() >= 0) << index << " " << given.z;
+          ASSERT_TRUE(std::isfinite(sample->pdf_w) && sample->pdf_w >= 0) << index << " " << given.z;
+          ASSERT_NEAR(length(sample->direction), 1, 1e-3f) << index << " " << given.z;
+          const Vec3 other = direction(2 * rng.next_double() - 1);
+          for (const Vec3& chosen : {sample->direction, other, -given, given}) {
+            const Bsdf::Eval eval = bsdf->eval(point, given, chosen, mode);
+            ASSERT_TRUE(eval.value.is_finite() && eval.value.min() >= 0) << index << " " << given.z;
+            ASSERT_TRUE(std::isfinite(eval.pdf_w) && eval.pdf_w >= 0) << index << " " << given.z;
+          }
+        }
+      }
+    }
+  }
+}
+
 // ---- Planted errors -------------------------------------------------------------------------------------------------
 
 TEST(BsdfChecks, RefuseADensityWithAWrongFactor) {
