@@ -27,6 +27,12 @@ LoadedScene load_scene(const std::filesystem::path& file, const Overrides& overr
 LoadedScene load_scene_from_string(const std::string& xml, const std::string& name, const Overrides& overrides = {},
                                    const std::filesystem::path& folder = {});
 
+/// The same from a document that has been read, and perhaps edited, before.
+LoadedScene load_scene(SceneDocument document);
+
+/// The integrator of a document, or a `path` where it has none. Throws SceneError when there are several.
+IntegratorDescription find_integrator(const SceneDocument& document);
+
 /// Gives a node a value from the command line ("key=value"), replacing what the file says.
 void set_value(SceneNode& node, const std::string& name, const std::string& text, const SourceLocation& where = {});
 
