@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "geometry/affine.h"
+#include "geometry/azimuth.h"
 #include "geometry/shading_frame.h"
 #include "geometry/user_geometry.h"
 
@@ -76,14 +77,12 @@ Vec3 Cylinder::normal_at(const V3d& p) const {
 
 SurfacePoint Cylinder::point_at(double cos_phi, double sin_phi, double z) const {
   const V3d n = x_axis_ * cos_phi + y_axis_ * sin_phi;
-  double phi = std::atan2(sin_phi, cos_phi);
-  if (phi < 0) phi += 2 * std::numbers::pi;
 
   SurfacePoint s;
   s.p = Vec3(base_ + n * radius_ + z_axis_ * z);
   s.error = rounding_error(s.p);
   s.ng = Vec3(flip_normals_ ? -n : n);
-  s.uv = {static_cast<float>(phi / (2 * std::numbers::pi)), static_cast<float>(z / length_)};
+  s.uv = {turn_of(static_cast<float>(cos_phi), static_cast<float>(sin_phi)), static_cast<float>(z / length_)};
   s.dp_du = Vec3((y_axis_ * cos_phi - x_axis_ * sin_phi) * (2 * std::numbers::pi * radius_));
   s.dp_dv = Vec3(z_axis_ * length_);
   s.shading = shading_frame(s.ng, s.dp_du);

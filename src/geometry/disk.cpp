@@ -5,6 +5,7 @@
 
 #include "core/warp.h"
 #include "geometry/affine.h"
+#include "geometry/azimuth.h"
 #include "geometry/shading_frame.h"
 #include "geometry/user_geometry.h"
 
@@ -46,8 +47,6 @@ Vec3 Disk::normal_at(const V3d&) const { return Vec3(normal_); }
 
 SurfacePoint Disk::point_at(double x, double y) const {
   const double r = std::sqrt(x * x + y * y);
-  double phi = std::atan2(y, x);
-  if (phi < 0) phi += 2 * std::numbers::pi;
   const double cos_phi = r > 0 ? x / r : 1, sin_phi = r > 0 ? y / r : 0;
   const V3d x_edge = x_axis_ * x_radius_, y_edge = y_axis_ * y_radius_;
 
@@ -55,7 +54,7 @@ SurfacePoint Disk::point_at(double x, double y) const {
   s.p = Vec3(center_ + x_edge * x + y_edge * y);
   s.error = rounding_error(s.p);
   s.ng = Vec3(normal_);
-  s.uv = {static_cast<float>(r), static_cast<float>(phi / (2 * std::numbers::pi))};
+  s.uv = {static_cast<float>(r), turn_of(static_cast<float>(x), static_cast<float>(y))};
   s.dp_du = Vec3(x_edge * cos_phi + y_edge * sin_phi);
   s.dp_dv = Vec3((y_edge * cos_phi - x_edge * sin_phi) * (2 * std::numbers::pi * r));
   s.shading = shading_frame(s.ng, s.dp_du);

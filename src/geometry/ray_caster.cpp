@@ -10,6 +10,10 @@ namespace {
 /// Beyond this many primitives the best hierarchy costs too much time and memory to build.
 constexpr size_t kManyPrimitives = 2'000'000;
 
+/// How much nearer than the nearest surface found so far another must be to be looked for. Surfaces at nearly the same
+/// distance are many (a sphere seen from its middle), and a bound need not tell them apart.
+constexpr float kWorthLooking = 0.75f;
+
 struct NearestQuery {
   const std::vector<std::shared_ptr<const Shape>>& shapes;
   float distance;
@@ -21,7 +25,7 @@ bool visit_primitive(RTCPointQueryFunctionArguments* args) {
       nearest.shapes[args->geomID]->distance_bound({args->query->x, args->query->y, args->query->z}, args->primID);
   if (!(distance < nearest.distance)) return false;
   nearest.distance = distance;
-  args->query->radius = distance;
+  args->query->radius = kWorthLooking * distance;
   return true;
 }
 }  // namespace
@@ -80,7 +84,8 @@ float RayCaster::tree_clearance(const Vec3& p, float limit) const {
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   rtcPointQuery(scene_, &query, &context, visit_primitive, &nearest);
-  return nearest.distance;
+  // What was not visited is further away than the radius at that time, which only shrank.
+  return nearest.distance < limit ? kWorthLooking * nearest.distance : limit;
 }
 
 }  // namespace turbid

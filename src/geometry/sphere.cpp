@@ -4,6 +4,7 @@
 
 #include "core/warp.h"
 #include "geometry/affine.h"
+#include "geometry/azimuth.h"
 #include "geometry/shading_frame.h"
 #include "geometry/user_geometry.h"
 
@@ -38,22 +39,18 @@ Vec3 Sphere::normal_at(const V3d& p) const {
 }
 
 SurfacePoint Sphere::point_at(const V3d& n) const {
-  const auto r = static_cast<double>(radius_);
-  const V3d local(n.dot(axes_[0]), n.dot(axes_[1]), n.dot(axes_[2]));
-  const double rho = std::sqrt(local.x * local.x + local.y * local.y);
-  double phi = std::atan2(local.y, local.x);
-  if (phi < 0) phi += 2 * std::numbers::pi;
-  const auto world = [&](const V3d& v) { return Vec3(axes_[0] * v.x + axes_[1] * v.y + axes_[2] * v.z); };
+  const Vec3 local(V3d(n.dot(axes_[0]), n.dot(axes_[1]), n.dot(axes_[2])));
+  const float rho = std::sqrt(local.x * local.x + local.y * local.y);
+  const float cos_phi = rho > 0 ? local.x / rho : 1, sin_phi = rho > 0 ? local.y / rho : 0;
+  const Vec3 x(axes_[0]), y(axes_[1]), z(axes_[2]);
 
   SurfacePoint s;
-  s.p = Vec3(V3d(center_) + n * r);
+  s.p = Vec3(V3d(center_) + n * static_cast<double>(radius_));
   s.error = rounding_error(s.p);
   s.ng = Vec3(flip_normals_ ? -n : n);
-  s.uv = {static_cast<float>(phi / (2 * std::numbers::pi)),
-          static_cast<float>(std::atan2(rho, local.z) / std::numbers::pi)};
-  const double cos_phi = rho > 0 ? local.x / rho : 1, sin_phi = rho > 0 ? local.y / rho : 0;
-  s.dp_du = world(V3d(-local.y, local.x, 0) * (2 * std::numbers::pi * r));
-  s.dp_dv = world(V3d(local.z * cos_phi, local.z * sin_phi, -rho) * (std::numbers::pi * r));
+  s.uv = {turn_of(local.x, local.y), 2 * turn_of(local.z, rho)};
+  s.dp_du = (y * local.x - x * local.y) * (2 * kPi * radius_);
+  s.dp_dv = ((x * cos_phi + y * sin_phi) * local.z - z * rho) * (kPi * radius_);
   s.shading = shading_frame(s.ng, s.dp_du);
   return s;
 }

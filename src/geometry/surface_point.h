@@ -5,11 +5,12 @@
 
 namespace turbid {
 
-/// True when `direction` leads to the outside of a surface with geometric normal ng. The same in every place that asks: the
-/// products are exact in double, so the compiler cannot round them differently here and there, as it may with dot(). The
-/// medium behind a boundary and the side that a ray starts on must both be decided by this.
+/// True when `direction` leads to the outside of a surface with geometric normal ng. The same in every place that asks:
+/// the products are exact in double, so the compiler cannot round them differently here and there, as it may with
+/// dot(). The medium behind a boundary and the side that a ray starts on must both be decided by this.
 inline bool leads_outside(const Vec3& ng, const Vec3& direction) {
-  return double{ng.x} * double{direction.x} + double{ng.y} * double{direction.y} + double{ng.z} * double{direction.z} > 0;
+  return double{ng.x} * double{direction.x} + double{ng.y} * double{direction.y} + double{ng.z} * double{direction.z} >
+         0;
 }
 
 /// A point on a surface, with what shading needs of its neighbourhood. World space.
@@ -21,7 +22,7 @@ struct SurfacePoint {
   Vec2 uv;          ///< surface parameters, for textures
   Vec3 dp_du, dp_dv;       ///< partial derivatives of p by uv
   uint32_t primitive = 0;  ///< triangle of a mesh; 0 for other shapes
-  Vec2 barycentric{0, 0};    ///< weights (b1, b2) of the triangle's second and third vertex, for mesh attributes
+  Vec2 barycentric{0, 0};  ///< weights (b1, b2) of the triangle's second and third vertex, for mesh attributes
 
   Vec3 to_local(const Vec3& v) const { return shading.to_local(v); }
   Vec3 to_world(const Vec3& v) const { return shading.to_world(v); }

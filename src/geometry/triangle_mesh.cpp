@@ -151,17 +151,16 @@ void TriangleMesh::settle_orientation() {
     for (Vec3& n : mesh_.normals) n = -n;
 }
 
-double TriangleMesh::find_edge_slack() const {
-  constexpr double kEdgeRoundings = 4;
+float TriangleMesh::find_edge_slack() const {
+  constexpr float kEdgeRoundings = 4;
   float squared = 0;
   for (size_t i = 0; i < mesh_.indices.size(); i += 3)
     for (size_t k = 0; k < 3; ++k)
       squared = std::max(squared, length_squared(mesh_.positions[mesh_.indices[i + (k + 1) % 3]] -
                                                  mesh_.positions[mesh_.indices[i + k]]));
   // Beyond the range of squares in float the coordinates themselves bound it.
-  const double longest =
-      std::isfinite(squared) ? std::sqrt(static_cast<double>(squared)) : 2 * static_cast<double>(kLargestCoordinate);
-  return kEdgeRoundings * static_cast<double>(kUnitRoundoff) * longest;
+  const float longest = std::isfinite(squared) ? std::sqrt(squared) : 4 * kLargestCoordinate;
+  return kEdgeRoundings * kUnitRoundoff * longest;
 }
 
 bool TriangleMesh::is_closed() const {
@@ -203,29 +202,29 @@ SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& bary
   // that is a few units in the last place of |v0 - origin|, times 1 plus the relative error of the cross product Ng,
   // which Embree takes of two edges of which one is the shortest: large only for triangles with three nearly parallel
   // edges. Starting further away than this keeps it right; edge_slack_ keeps it off the widened neighbours too.
-  constexpr double kCastRoundings = 6;
-  const auto b1 = static_cast<double>(barycentric.x), b2 = static_cast<double>(barycentric.y);
-  const double squared1 = edge1.length2(), squared2 = edge2.length2(), squared3 = (edge2 - edge1).length2();
-  const double longest = std::sqrt(std::max({squared1, squared2, squared3}));
-  const double slenderness = longest * std::sqrt(std::min({squared1, squared2, squared3})) / twice_area;
-  const double cast_error =
-      kCastRoundings * static_cast<double>(kUnitRoundoff) * (1 + slenderness) * (edge1 * b1 + edge2 * b2).length();
+  constexpr float kCastRoundings = 6;
+  const Vec3 e1(v1 - v0), e2(v2 - v0);
+  const float squared1 = length_squared(e1), squared2 = length_squared(e2), squared3 = length_squared(e2 - e1);
+  const float longest_squared = std::max({squared1, squared2, squared3});
+  const float area = static_cast<float>(twice_area);
+  const float slenderness = std::sqrt(longest_squared * std::min({squared1, squared2, squared3})) / area;
+  const Vec3 from_v0 = abs(e1 * barycentric.x + e2 * barycentric.y);
+  const float cast_error = kCastRoundings * kUnitRoundoff * (1 + slenderness) * (from_v0.x + from_v0.y + from_v0.z);
   const Vec3 extent(std::max({std::abs(v0.x), std::abs(v1.x), std::abs(v2.x)}),
                     std::max({std::abs(v0.y), std::abs(v1.y), std::abs(v2.y)}),
                     std::max({std::abs(v0.z), std::abs(v1.z), std::abs(v2.z)}));
 
   SurfacePoint s;
-  s.error = rounding_error(extent) + static_cast<float>(cast_error + edge_slack_);
+  s.error = rounding_error(extent) + cast_error + edge_slack_;
 
   // A point nearer to an edge than a few errors could be moved, by its own rounding or by leave(), beyond the
   // neighbouring triangle. It is taken back into this one: at a distance of k errors from its edges it stays on the
   // right side of all neighbours that meet this triangle at more than atan(1/k). The height over an edge is at least
   // twice_area / longest.
-  constexpr double kEdgeErrors = 8, kLargestMargin = 0.25;
-  const double margin = std::min(kEdgeErrors * static_cast<double>(s.error) * longest / twice_area, kLargestMargin);
+  constexpr float kEdgeErrors = 8, kLargestMargin = 0.25f;
+  const float margin = std::min(kEdgeErrors * s.error * std::sqrt(longest_squared) / area, kLargestMargin);
   Vec2 b = barycentric;
-  if (static_cast<double>(std::min({b.x, b.y, 1 - b.x - b.y})) < margin)
-    b = Vec2(static_cast<float>(margin)) + b * static_cast<float>(1 - 3 * margin);
+  if (std::min({b.x, b.y, 1 - b.x - b.y}) < margin) b = Vec2(margin) + b * (1 - 3 * margin);
 
   const V3d exact = origin + edge1 * static_cast<double>(b.x) + edge2 * static_cast<double>(b.y);
   s.primitive = triangle;
@@ -243,7 +242,6 @@ SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& bary
     const float determinant = d1.x * d2.y - d1.y * d2.x;
     const float inverse = 1 / determinant;
     if (determinant != 0 && std::isfinite(inverse)) {
-      const Vec3 e1 = v1 - v0, e2 = v2 - v0;
       s.dp_du = (e1 * d2.y - e2 * d1.y) * inverse;
       s.dp_dv = (e2 * d1.x - e1 * d2.x) * inverse;
     }

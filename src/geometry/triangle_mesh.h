@@ -44,21 +44,21 @@ class TriangleMesh final : public Shape {
   RTCGeometry make_embree_geometry(RTCDevice device) const override;
   float distance_bound(const Vec3& p, uint32_t primitive) const override;
 
-  /// The point with barycentric weights (1 - b.x - b.y, b.x, b.y) of a triangle; points closer to an edge than a few rounding
-  /// errors are moved inwards to that distance.
+  /// The point with barycentric weights (1 - b.x - b.y, b.x, b.y) of a triangle; points closer to an edge than a few
+  /// rounding errors are moved inwards to that distance.
   SurfacePoint point_on_triangle(uint32_t triangle, const Vec2& barycentric) const;
 
  private:
   void drop_degenerate_triangles();
   void settle_orientation();
-  double find_edge_slack() const;
+  float find_edge_slack() const;
 
   MeshData mesh_;
   Bounds3 bounds_;
   double area_ = 0;
   /// By so much a watertight ray cast may take a triangle for larger than it is: a few units in the last place of the
   /// longest edge. A ray that skims over an edge must keep that distance, or it meets the back of the next triangle.
-  double edge_slack_ = 0;
+  float edge_slack_ = 0;
   // Only some meshes are ever asked for these.
   mutable std::once_flag areas_once_, closed_once_;
   mutable DiscreteDistribution triangle_areas_;

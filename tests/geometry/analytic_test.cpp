@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "geometry/azimuth.h"
 #include "shapes_for_tests.h"
 
 namespace turbid {
@@ -78,6 +79,18 @@ TEST(Cylinder, FollowsMitsuba) {
   EXPECT_THROW(Cylinder({0, 0, 0}, {0, 0, 1}, 0), std::invalid_argument);
   EXPECT_THROW(Cylinder({0, 0, 0}, {0, 0, 1}, 1, Transform::scale(2, 1, 1)), std::invalid_argument);
   EXPECT_FLOAT_EQ(Cylinder({0, 0, 0}, {0, 0, 1}, 1, Transform::scale(2, 2, 5)).area(), 20 * kPi);  // stretching is fine
+}
+
+TEST(AnalyticShapes, TurnsAreAzimuths) {
+  for (int i = 0; i <= 3600; ++i) {
+    const double phi = 2 * std::numbers::pi * i / 3600;
+    const auto x = static_cast<float>(3 * std::cos(phi)), y = static_cast<float>(3 * std::sin(phi));
+    double expected = std::atan2(double{y}, double{x}) / (2 * std::numbers::pi);
+    if (expected < 0) expected += 1;
+    EXPECT_NEAR(turn_of(x, y), expected, 1e-7) << i;
+  }
+  EXPECT_EQ(turn_of(0, 0), 0);
+  EXPECT_EQ(turn_of(-2, 0), 0.5f);
 }
 
 TEST(AnalyticShapes, BoundsEnclose) {
