@@ -24,7 +24,7 @@ struct Object {
 
   /// The medium on the side that `direction` (pointing away from the surface) leads to.
   const Medium* medium_towards(const Vec3& ng, const Vec3& direction) const {
-    return dot(ng, direction) > 0 ? exterior.get() : interior.get();
+    return leads_outside(ng, direction) ? exterior.get() : interior.get();
   }
 };
 
