@@ -18,9 +18,9 @@ constexpr std::array kIndices = {
     NamedIndex{"pet", 1.575f},       NamedIndex{"diamond", 2.419f},
 };
 
-/// Measured spectra of the luxpop.com collection (the files that Mitsuba names Ag, Al ...; Cr: Palik 1985), turned into
-/// linear Rec. 709 as emission spectra are in Mitsuba 3's RGB mode: CIE 1931 observer, 360-830 nm, equal energy 1 has
-/// luminance 1. A spectrally constant value is therefore not quite grey.
+/// Measured spectra of the luxpop.com collection (the files that Mitsuba names Ag, Al ...; Cr: from Palik, "Handbook of
+/// Optical Constants of Solids"), turned into linear Rec. 709 as emission spectra are in Mitsuba 3's RGB mode: CIE 1931
+/// observer, 360-830 nm, equal energy 1 has luminance 1. A spectrally constant value is therefore not quite grey.
 constexpr std::array kConductors = {
     NamedConductor{"none", Spectrum(0, 0, 0), Spectrum(1, 1, 1)},
     NamedConductor{"Ag", Spectrum(0.155276f, 0.116728f, 0.138388f), Spectrum(4.828355f, 3.122222f, 2.146901f)},
