@@ -10,6 +10,7 @@ std::string quoted_line(const SourceLocation& where) {
   std::string line;
   for (int i = 0; i < where.line; ++i)
     if (!std::getline(file, line)) return {};
+  if (line.ends_with('\r')) line.pop_back();
   constexpr size_t kLongestLine = 160;
   if (where.line == 0 || line.size() > kLongestLine) return {};
   for (char& c : line)

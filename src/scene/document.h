@@ -47,7 +47,8 @@ std::string describe_type(const Value& value);
 struct NamedValue {
   std::string name;
   Value value;
-  SourceLocation where;
+  SourceLocation where;         ///< of the value
+  SourceLocation name_where{};  ///< of the name
 };
 
 struct SceneNode;
@@ -71,7 +72,9 @@ struct SceneNode {
   SourceLocation where;
 
   /// "bsdf 'diffuse'", for messages.
-  std::string describe() const { return std::string(to_string(category)) + " '" + type + "'"; }
+  std::string describe() const {
+    return category == Category::kScene ? "the scene" : std::string(to_string(category)) + " '" + type + "'";
+  }
 };
 
 /// Values of $variables given on the command line (-D name=value); they win over <default>.

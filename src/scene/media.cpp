@@ -15,7 +15,7 @@ using enum ParameterType;
 
 /// What the file says of a medium, before units: scattering (perhaps reduced) and absorption.
 struct Coefficients {
-  Spectrum sigma_s, sigma_a;
+  Spectrum sigma_t, sigma_s, sigma_a;
   bool reduced = false;
   float g = 0;                   ///< of a measured material, when the file names no phase function
   double metres_per_length = 0;  ///< coefficients are per this length; 0: per scene unit
@@ -41,7 +41,12 @@ Coefficients read_material(const Properties& p) {
     for (const Material& known : materials()) names.emplace_back(known.name);
     p.refuse("material", "names the unknown material '" + name + "'" + suggestion(name, names));
   }
-  return {material->sigma_s, material->sigma_a, material->reduced, material->g.mean(), 1e-3};
+  return {.sigma_t = material->sigma_s + material->sigma_a,
+          .sigma_s = material->sigma_s,
+          .sigma_a = material->sigma_a,
+          .reduced = material->reduced,
+          .g = material->g.mean(),
+          .metres_per_length = 1e-3};
 }
 
 Coefficients read_coefficients(const Properties& p, Builder& b) {
@@ -53,10 +58,12 @@ Coefficients read_coefficients(const Properties& p, Builder& b) {
     refuse_beside(p, p.has("sigma_s") ? "sigma_s" : "sigma_a", {"sigma_t", "albedo"});
     result.sigma_s = b.spectrum(p, "sigma_s");
     result.sigma_a = b.spectrum(p, "sigma_a");
+    result.sigma_t = result.sigma_s + result.sigma_a;
   } else {
-    const Spectrum sigma_t = b.spectrum(p, "sigma_t"), albedo = b.spectrum(p, "albedo");
-    result.sigma_s = sigma_t * albedo;
-    result.sigma_a = sigma_t * (Spectrum(1.0f) - albedo);
+    const Spectrum albedo = b.spectrum(p, "albedo");
+    result.sigma_t = b.spectrum(p, "sigma_t");  // kept as it is: equal channels stay equal
+    result.sigma_s = result.sigma_t * albedo;
+    result.sigma_a = result.sigma_t * (Spectrum(1.0f) - albedo);
   }
   return result;
 }
@@ -81,10 +88,13 @@ std::shared_ptr<const Medium> make_homogeneous(const Properties& p, Builder& b) 
     phase = std::make_shared<HenyeyGreensteinPhase>(coefficients.g);
   else if (!phase)
     phase = std::make_shared<IsotropicPhase>();
-  Spectrum sigma_s = coefficients.sigma_s;
-  if (coefficients.reduced) sigma_s /= 1 - phase->mean_cosine();
+  Spectrum sigma_t = coefficients.sigma_t, sigma_s = coefficients.sigma_s;
+  if (coefficients.reduced) {
+    sigma_s /= 1 - phase->mean_cosine();
+    sigma_t = sigma_s + coefficients.sigma_a;
+  }
   const float scale = scale_of(p, b, coefficients);
-  return std::make_shared<HomogeneousMedium>((sigma_s + coefficients.sigma_a) * scale, sigma_s * scale, phase);
+  return std::make_shared<HomogeneousMedium>(sigma_t * scale, sigma_s * scale, phase);
 }
 
 }  // namespace

@@ -67,7 +67,9 @@ class PluginTable {
     try {
       return row.make(properties, context...);
     } catch (const std::invalid_argument& error) {
-      throw SceneError(node.where, node.describe() + ": " + error.what());
+      std::string reason = error.what();
+      if (reason.starts_with(node.type + ": ")) reason = reason.substr(node.type.size() + 2);
+      throw SceneError(node.where, node.describe() + ": " + reason);
     }
   }
 

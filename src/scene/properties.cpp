@@ -127,7 +127,7 @@ void Properties::match_values() {
     const auto known =
         std::find_if(list_->begin(), list_->end(), [&](const Parameter& p) { return p.name == value.name; });
     if (known == list_->end())
-      unknown_.push_back({"", value.name, value.where});
+      unknown_.push_back({"", value.name, value.name_where.file.empty() ? value.where : value.name_where});
     else
       given_[value.name].value = &value;
   }
@@ -159,9 +159,18 @@ void Properties::match_children() {
       continue;
     }
     const std::string tag = to_string(child.node->category);
+    if (!child.name.empty()) {
+      unknown_.push_back({"the " + tag + " ", child.name, child.where});
+      continue;
+    }
     const bool vowel = std::string("aeiou").find(tag[0]) != std::string::npos;
-    unknown_.push_back({child.name.empty() ? (vowel ? "an " : "a ") + tag + " without a name" : "the " + tag + " ",
-                        child.name, child.where});
+    std::string names;  // that it could have had
+    for (const Parameter& known : *list_)
+      if (child.node->category != Category::kShape && known.type == type_of_children(child.node->category))
+        names += (names.empty() ? "" : ", ") + known.name;
+    unknown_.push_back(
+        {(vowel ? "an " : "a ") + tag + " without a name" + (names.empty() ? "" : " (expected one of: " + names + ")"),
+         "", child.where});
   }
 }
 

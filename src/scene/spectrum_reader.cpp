@@ -1,5 +1,7 @@
 #include "scene/spectrum_reader.h"
 
+#include <fmt/format.h>
+
 #include <fstream>
 
 #include "scene/values.h"
@@ -12,8 +14,8 @@ std::string defect(const SpectralCurve& curve) {
   if (curve.wavelengths.size() < 2) return "a spectrum needs at least two wavelength:value pairs";
   for (size_t i = 1; i < curve.wavelengths.size(); ++i)
     if (!(curve.wavelengths[i] > curve.wavelengths[i - 1]))
-      return "wavelengths must increase, found " + std::to_string(curve.wavelengths[i - 1]) + " before " +
-             std::to_string(curve.wavelengths[i]);
+      return fmt::format("wavelengths must increase, found {} before {}", curve.wavelengths[i - 1],
+                         curve.wavelengths[i]);
   return {};
 }
 

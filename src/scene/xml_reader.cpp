@@ -110,6 +110,9 @@ XmlReader::File& XmlReader::parse(const std::string& text, const std::string& na
   if (!result) {
     std::string what = result.description();
     what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
+    if (result.status == pugi::status_end_element_mismatch) what = "this does not close the tag that is open here";
+    if (source.find_first_not_of(" \t\r\n", static_cast<size_t>(result.offset) + 1) == std::string::npos)
+      what = source.empty() ? "it is empty" : "the file ends before all tags are closed";
     throw SceneError(file.source.locate(static_cast<size_t>(result.offset)), "this is not well-formed XML: " + what);
   }
   return file;
@@ -185,7 +188,8 @@ void XmlReader::read_value(const Element& element, SceneNode& owner) {
   for (const NamedValue& other : owner.values)
     if (other.name == name)
       element.refuse("'" + name + "' is given twice, first in line " + std::to_string(other.where.line));
-  owner.values.push_back({name, std::move(value), element.where(element.has("value") ? "value" : "name")});
+  owner.values.push_back(
+      {name, std::move(value), element.where(element.has("value") ? "value" : "name"), element.where("name")});
 }
 
 Value XmlReader::value_of(const Element& element, const SceneNode& owner) {
