@@ -1,6 +1,6 @@
 # find_package(turbid): the rooms as libraries, turbid::turbid for all of them.
 include(CMakeFindDependencyMacro)
-foreach(package Threads TBB Imath OpenEXR pugixml CLI11 fmt spdlog nlohmann_json)
+foreach(package Threads TBB Imath OpenEXR ZLIB pugixml CLI11 fmt spdlog nlohmann_json)
   find_dependency(${package})
 endforeach()
 find_dependency(embree 3)
