@@ -53,6 +53,12 @@ std::shared_ptr<const PhaseFunction> Builder::phase(const Properties& properties
   return node ? phase(*node) : nullptr;
 }
 
+std::shared_ptr<const Texture> Builder::picture(const std::string& key,
+                                                const std::function<std::shared_ptr<const Texture>()>& make) {
+  if (const auto made = pictures_.find(key); made != pictures_.end()) return made->second;
+  return pictures_[key] = make();
+}
+
 std::string Builder::file(const Properties& properties, const std::string& name) {
   const std::filesystem::path path = properties.file(name);
   const std::lock_guard lock(files_mutex_);

@@ -33,6 +33,10 @@ class Builder {
   std::shared_ptr<const Medium> medium(const Properties& properties, const std::string& name);
   std::shared_ptr<const PhaseFunction> phase(const Properties& properties, const std::string& name);
 
+  /// The picture texture made by `make`, or the one made before under the same key (its file and settings).
+  std::shared_ptr<const Texture> picture(const std::string& key,
+                                         const std::function<std::shared_ptr<const Texture>()>& make);
+
   /// The file that a kFile parameter names; remembered as read. Safe to call from several threads.
   std::string file(const Properties& properties, const std::string& name);
   const std::vector<std::filesystem::path>& files() const { return files_; }
@@ -49,6 +53,7 @@ class Builder {
   Cache<Texture> textures_;
   Cache<Medium> media_;
   Cache<PhaseFunction> phases_;
+  std::map<std::string, std::shared_ptr<const Texture>> pictures_;
   std::mutex files_mutex_;
   std::vector<std::filesystem::path> files_;
 };

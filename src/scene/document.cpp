@@ -40,12 +40,16 @@ std::string describe_type(const Value& value) {
   return kNames[value.index()];
 }
 
+bool file_exists(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
 std::filesystem::path SceneDocument::resolve(const std::string& name) const {
   const std::filesystem::path path(name);
   if (path.is_absolute()) return path;
-  std::error_code ignored;
   for (const auto& folder : search_folders)
-    if (std::filesystem::exists(folder / path, ignored)) return (folder / path).lexically_normal();
+    if (file_exists(folder / path)) return (folder / path).lexically_normal();
   return path;
 }
 

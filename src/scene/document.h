@@ -91,6 +91,9 @@ struct SceneDocument {
   std::filesystem::path resolve(const std::string& name) const;
 };
 
+/// True when there is something of that name; never throws (names may be nonsense).
+bool file_exists(const std::filesystem::path& path);
+
 /// Reads a Mitsuba 3 scene file (version 2.0.0 or later). Throws SceneError when its text is wrong, FileError when a
 /// file cannot be read.
 SceneDocument read_document(const std::filesystem::path& file, const Overrides& overrides = {});

@@ -280,7 +280,7 @@ bool Properties::is_string(const std::string& name) const {
 std::filesystem::path Properties::file(const std::string& name) const {
   const std::string text = string(name);
   const std::filesystem::path path = document_ ? document_->resolve(text) : std::filesystem::path(text);
-  if (std::filesystem::exists(path)) return path;
+  if (file_exists(path)) return path;
   std::string folders;
   if (document_)
     for (const auto& folder : document_->search_folders)

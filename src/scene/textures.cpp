@@ -1,4 +1,6 @@
 // Textures: quantities that vary over a surface; and volumes, of which only constant ones exist.
+#include <fmt/format.h>
+
 #include "scene/builder.h"
 #include "texture/bitmap.h"
 #include "texture/checkerboard.h"
@@ -19,7 +21,11 @@ TexturePtr make_bitmap(const Properties& p, Builder& builder) {
   settings.wrap = wrap == "mirror" ? BitmapWrap::kMirror : wrap == "clamp" ? BitmapWrap::kClamp : BitmapWrap::kRepeat;
   settings.raw = p.boolean("raw");
   settings.to_uv = UvTransform(p.transform("to_uv"));
-  return std::make_shared<BitmapTexture>(builder.file(p, "filename"), settings);
+  const std::string path = builder.file(p, "filename");
+  std::string key = path + '\n' + p.string("filter_type") + wrap + (settings.raw ? "raw" : "");
+  const Transform to_uv = p.transform("to_uv");
+  for (int i = 0; i < 16; ++i) key += fmt::format(" {}", to_uv.at(i / 4, i % 4));
+  return builder.picture(key, [&] { return std::make_shared<BitmapTexture>(path, settings); });
 }
 
 const Parameter kToUv{"to_uv", kTransform, "identity", "maps surface parameters before the look-up"};

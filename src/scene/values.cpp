@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace turbid {
 namespace {
@@ -53,7 +54,9 @@ std::vector<std::string> split_words(std::string_view text) {
 double read_number(std::string_view text, const SourceLocation& where) {
   double number = 0;
   if (!parse_whole(text, number)) throw SceneError(where, "'" + std::string(text) + "' is not a number");
-  if (!std::isfinite(number)) throw SceneError(where, "'" + std::string(text) + "' is not a finite number");
+  // Numbers end up as floats.
+  if (!std::isfinite(number) || std::abs(number) > static_cast<double>(std::numeric_limits<float>::max()))
+    throw SceneError(where, "'" + std::string(text) + "' is not a finite number");
   return number;
 }
 

@@ -37,7 +37,7 @@ std::vector<std::string> all_tags() {
 
 std::string read_whole(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) throw FileError(path.string(), "the file does not exist");
+  if (!file_exists(path)) throw FileError(path.string(), "the file does not exist");
   if (std::filesystem::is_directory(path, ignored))
     throw FileError(path.string(), "is a folder, expected a scene file");
   std::ifstream file(path, std::ios::binary);
@@ -64,6 +64,7 @@ std::string list_of(const std::vector<std::filesystem::path>& folders) {
   return list;
 }
 
+constexpr size_t kMostFiles = 10000;
 constexpr int kDeepest = 200;  ///< of tags inside tags, includes counted
 
 }  // namespace
@@ -224,7 +225,7 @@ Spectrum XmlReader::spectrum_of(const Element& element, const SceneNode& owner) 
   const SpectralUse use = spectral_use(owner.category, element.get("name"));
   if (element.has("value")) return read_spectrum(element.get("value"), use, element.where("value"));
   const std::filesystem::path path = find_file(element.get("filename"), {});
-  if (!std::filesystem::exists(path))
+  if (!file_exists(path))
     throw SceneError(element.where("filename"), "there is no file '" + element.get("filename") +
                                                     "' (looked in: " + list_of(document_.search_folders) + ")");
   document_.files.push_back(path);
@@ -248,12 +249,13 @@ void XmlReader::read_include(const Element& element, SceneNode& owner, File& fil
   element.check_empty();
   const std::string name = element.get("filename");
   const std::filesystem::path path = find_file(name, file.folder);
-  if (!std::filesystem::exists(path)) {
+  if (!file_exists(path)) {
     auto folders = document_.search_folders;
     if (std::find(folders.begin(), folders.end(), file.folder) == folders.end()) folders.push_back(file.folder);
     throw SceneError(element.where("filename"),
                      "there is no file '" + name + "' (looked in: " + list_of(folders) + ")");
   }
+  if (document_.files.size() > kMostFiles) element.refuse("the scene includes too many files");
   if (std::find(including_.begin(), including_.end(), std::filesystem::weakly_canonical(path)) != including_.end())
     throw SceneError(element.where("filename"), "cyclic include: '" + name + "' is already being read");
   File& included = open(path);
@@ -271,14 +273,14 @@ void XmlReader::read_path(const Element& element, const SceneNode& owner, const 
   if (owner.category != Category::kScene) element.refuse("<path> can only stand directly inside <scene>");
   const std::string name = element.get("value");
   std::filesystem::path folder = file.folder / name;
-  if (!std::filesystem::exists(folder)) folder = document_.resolve(name);
-  if (!std::filesystem::exists(folder)) throw SceneError(element.where("value"), "there is no folder '" + name + "'");
+  if (!file_exists(folder)) folder = document_.resolve(name);
+  if (!file_exists(folder)) throw SceneError(element.where("value"), "there is no folder '" + name + "'");
   document_.search_folders.insert(document_.search_folders.begin(), folder.lexically_normal());
 }
 
 std::filesystem::path XmlReader::find_file(const std::string& name, const std::filesystem::path& folder) const {
   const std::filesystem::path path = document_.resolve(name);
-  if (!std::filesystem::exists(path) && std::filesystem::exists(folder / name)) return folder / name;
+  if (!file_exists(path) && file_exists(folder / name)) return folder / name;
   return path;
 }
 

@@ -55,6 +55,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "3 test.xml:2:50: '1.0x' is not a number"},
         Malformed{"<shape type=\"sphere\"><float name=\"radius\" value=\"nan\"/></shape>",
                   "3 test.xml:2:50: 'nan' is not a finite number"},
+        Malformed{"<shape type=\"sphere\"><float name=\"radius\" value=\"1e300\"/></shape>",
+                  "3 test.xml:2:50: '1e300' is not a finite number"},
         Malformed{"<shape type=\"sphere\"><point name=\"center\" value=\"1 2\"/></shape>",
                   "3 test.xml:2:50: expected 1 or 3 numbers, found 2"},
         Malformed{"<shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"2\"/></shape>",
@@ -98,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"<shape type=\"xyzzy\"/>",
                   "3 test.xml:2:1: unknown shape 'xyzzy' (expected one of: obj, ply, sphere, rectangle, cube, disk, "
                   "cylinder, generated)"},
-        Malformed{"<medium type=\"heterogeneous\"/>", "3 test.xml:2:1: medium 'heterogeneous' is not supported"},
+        Malformed{"<medium type=\"heterogenous\"/>", "3 test.xml:2:1: unknown medium 'heterogenous', did you mean 'heterogeneous'?"},
         Malformed{"<bsdf type=\"diffuse\"><rgb name=\"reflectence\" value=\"0.5\"/></bsdf>",
                   "3 test.xml:2:33: unknown parameter of bsdf 'diffuse': 'reflectence', did you mean 'reflectance'?"},
         Malformed{
@@ -175,7 +177,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "value=\"2\"/></volume></medium>",
                   "3 test.xml:2:28: 'albedo' of medium 'homogeneous' is (2, 2, 2), expected numbers in [0, 1]"},
         Malformed{"<medium type=\"homogeneous\"><volume name=\"albedo\" type=\"gridvolume\"/></medium>",
-                  "3 test.xml:2:28: volume 'gridvolume' is not supported"},
+                  "3 test.xml:2:28: volume 'gridvolume' needs the parameter 'filename' (a string that names a file: version 3; "
+                  "float32, float16 or uint8; 1 or 3 channels)"},
         Malformed{"<phase type=\"hg\"><float name=\"g\" value=\"1\"/></phase>",
                   "3 test.xml:2:41: 'g' of phase 'hg' is 1, expected a number in (-1, 1)"},
         Malformed{"<phase type=\"tabphase\"><string name=\"values\" value=\"1, -1\"/></phase>",

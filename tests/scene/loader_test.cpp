@@ -5,8 +5,8 @@
 #include "medium/homogeneous.h"
 #include "medium/materials.h"
 #include "reading.h"
+#include "scene/builder.h"
 #include "scene/catalog.h"
-#include "scene/tables.h"
 #include "testing/temporary_folder.h"
 
 namespace turbid::testing {
@@ -155,6 +155,22 @@ TEST(Loader, NamesEveryFileThatItRead) {
   const std::vector<std::filesystem::path> expected = {folder.file("main.xml"), folder.file("part.xml"),
                                                        folder.file("a.obj")};
   EXPECT_EQ(scene.files, expected);
+}
+
+TEST(Loader, APictureIsLoadedOnceForEachWayOfReadingIt) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("a.hdr"), std::ios::binary) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n"
+                                                        << std::string("\x80\x80\x80\x81", 4);
+  const std::string picture = "<string name=\"filename\" value=\"a.hdr\"/>";
+  std::ofstream(folder.file("main.xml")) << scene_of(
+      "<texture type=\"bitmap\" id=\"a\">" + picture + "</texture><texture type=\"bitmap\" id=\"b\">" + picture +
+      "</texture><texture type=\"bitmap\" id=\"c\">" + picture + "<boolean name=\"raw\" value=\"true\"/></texture>");
+  const SceneDocument document = read_document(folder.file("main.xml"));
+  Builder builder(document, 0);
+  const auto& nodes = document.root->children;
+  EXPECT_EQ(builder.texture(*nodes[0].node), builder.texture(*nodes[1].node));
+  EXPECT_NE(builder.texture(*nodes[0].node), builder.texture(*nodes[2].node));
+  EXPECT_NEAR(builder.texture(*nodes[0].node)->mean()[1], 1, 0.01f);
 }
 
 /// Every default in the tables can be read as its parameter's type and lies in its range.
