@@ -8,8 +8,11 @@ constexpr Passage kBlocked{Spectrum(0.0f), 0};
 /// Attenuates along the first `distance` of the ray.
 void attenuate(Passage& passage, Spectrum& throughput, const Medium& medium, const Ray& ray, float distance,
                Sampler& sampler) {
-  const Spectrum transmittance = medium.transmittance({ray.origin, ray.direction, distance}, sampler);
-  const Spectrum passed = throughput * transmittance;
+  const Ray part{ray.origin, ray.direction, distance};
+  const Spectrum transmittance = medium.transmittance(part, sampler);
+  // An estimate of the transmittance is random: weights of multiple importance sampling must not depend on it.
+  const Spectrum proxy = medium.as_homogeneous() ? transmittance : medium.proxy_transmittance(part);
+  const Spectrum passed = throughput * proxy;
   passage.prob *= passed.sum() / throughput.sum();
   passage.transmittance *= transmittance;
   throughput = passed;
@@ -39,7 +42,7 @@ Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectru
     if (medium) {
       const float distance = hit ? hit.t : std::isfinite(ray.t_max) ? ray.t_max : scene.distance_to_world_end(ray);
       attenuate(passage, throughput, *medium, ray, distance, sampler);
-      if (passage.prob == 0) return kBlocked;
+      if (passage.prob == 0 || passage.transmittance.is_black()) return kBlocked;
     }
     if (!hit) return passage;
 

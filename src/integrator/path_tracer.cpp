@@ -92,18 +92,21 @@ class Walk {
         find_free_ball();
         return false;
       }
-      pass(homogeneous_->passage(hit ? hit.t : limit, mix));
+      const Flight passage = homogeneous_->passage(hit ? hit.t : limit, mix);
+      pass(passage, passage.weight * passage.probability);
       return true;
     }
     ++counters_.rays;
     hit = scene_.rays().intersect(ray_);
     const float limit = hit ? hit.t : end_of_ray();
-    const Flight flight = medium_->sample_flight({ray_.origin, ray_.direction, limit}, mix, sampler_);
+    const Ray way{ray_.origin, ray_.direction, limit};
+    const Flight flight = medium_->sample_flight(way, mix, sampler_);
+    if (medium_->emits() && (depth_ > 0 || !settings_.hide_emitters)) add(flight.emission);
     if (flight.collides) {
       collide(ray_.at(flight.t), flight);
       return false;
     }
-    pass(flight);
+    pass(flight, medium_->proxy_transmittance(way));
     return true;
   }
 
@@ -112,9 +115,12 @@ class Walk {
     ray_ = {at, ray_.direction};
   }
 
-  void pass(const Flight& flight) {
+  /// proxy: the medium's proxy_transmittance of the way.
+  void pass(const Flight& flight, const Spectrum& proxy) {
     throughput_ *= flight.weight;
-    passing_prob_ *= flight.probability;
+    const Spectrum passed = straight_ * proxy;
+    passing_prob_ *= passed.sum() / straight_.sum();
+    straight_ = passed;
   }
 
   float end_of_ray() const {
@@ -164,7 +170,7 @@ class Walk {
     const Vec3 wo = -ray_.direction, wo_local = point.to_local(wo);
     if (kVolumes && flags == (lobe::kNull | lobe::kDelta | lobe::kTransmission)) {
       const Spectrum through = bsdf.null_transmission(point, wo_local);
-      pass_surface(object, point, hit.t, null_prob(through));
+      pass_surface(object, point, hit.t, through);
       throughput_ *= through;
       return true;
     }
@@ -178,7 +184,7 @@ class Walk {
     const auto sample = bsdf.sample(point, wo_local, u_lobe, sampler_.next_2d(), TransportMode::kRadiance);
     if (!sample) return false;
     if (kVolumes && (sample->flags & lobe::kNull)) {
-      pass_surface(object, point, hit.t, null_prob(bsdf.null_transmission(point, wo_local)));
+      pass_surface(object, point, hit.t, bsdf.null_transmission(point, wo_local));
       throughput_ *= sample->weight;
       return !throughput_.is_black();
     }
@@ -195,9 +201,10 @@ class Walk {
   }
 
   /// Goes straight on behind a surface: no event, the last scattering stays the one that chose this direction.
-  void pass_surface(const Object& object, const SurfacePoint& point, float t, float prob) {
+  void pass_surface(const Object& object, const SurfacePoint& point, float t, const Spectrum& through) {
     const float t_max = ray_.t_max - t;
-    passing_prob_ *= prob;
+    passing_prob_ *= null_prob(through);
+    straight_ *= through;
     leave(object, point, ray_.direction);
     ray_.t_max = t_max;
   }
@@ -214,6 +221,7 @@ class Walk {
     last_position_ = ray_.origin;
     last_pdf_w_ = pdf_w;
     passing_prob_ = 1;
+    straight_ = throughput_;
   }
 
   /// Russian roulette: survives with the share of the initial importance that is left, so that all survivors weigh
@@ -332,6 +340,8 @@ class Walk {
   Vec3 last_position_;      ///< where the current direction was chosen ...
   float last_pdf_w_ = 0;    ///< ... and its density, 1/sr; 0 where next-event estimation could not have found its way
   float passing_prob_ = 1;  ///< see Passage::prob
+  /// The throughput when the current edge began, times what pass_straight would multiply it by on the same way.
+  Spectrum straight_{1.0f};
 };
 
 }  // namespace

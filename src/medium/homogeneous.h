@@ -45,6 +45,7 @@ class HomogeneousMedium final : public Medium {
     return result;
   }
   Spectrum transmittance(const Ray& ray, Sampler&) const override { return transmittance(ray.t_max); }
+  Spectrum proxy_transmittance(const Ray& ray) const override { return transmittance(ray.t_max); }
 
   float max_sigma_t() const override { return sigma_t_.max(); }
   const HomogeneousMedium* as_homogeneous() const override { return this; }

@@ -13,7 +13,9 @@ struct Flight {
   bool collides = false;  ///< false: the flight reaches t_max (or leaves the medium's support)
   float t = 0;            ///< distance of the collision
   Spectrum weight;        ///< collision: sigma_s T(t) / pdf_t; passed: T(t_max) / prob. Multiplies the throughput.
-  float probability = 1;  ///< passed: probability of passing under the mixture, for MIS across boundaries
+  /// Passed: sum over channels of mix x proxy_transmittance. For homogeneous media it is the probability of passing.
+  float probability = 1;
+  Spectrum emission{0.0f};  ///< estimate of what the medium itself adds along the flight; times the throughput before
 };
 
 class HomogeneousMedium;
@@ -33,6 +35,14 @@ class Medium {
 
   /// Transmittance over the whole ray (exact, or an unbiased estimate), per channel.
   virtual Spectrum transmittance(const Ray& ray, Sampler& sampler) const = 0;
+
+  /// A stand-in for the transmittance that depends on the ray alone and is not 0 where light comes through. Multiple
+  /// importance sampling across media weighs by it, the same for all techniques (NUMERICS 3). Exact for homogeneous
+  /// media.
+  virtual Spectrum proxy_transmittance(const Ray& ray) const = 0;
+
+  /// Whether flights can bring emission.
+  virtual bool emits() const { return false; }
 
   /// Largest extinction of any channel anywhere: 1/max_sigma_t is the shortest mean free path.
   virtual float max_sigma_t() const = 0;
