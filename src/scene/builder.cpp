@@ -1,6 +1,7 @@
 #include "scene/builder.h"
 
 #include "texture/constant.h"
+#include "texture/constant_volume.h"
 
 namespace turbid {
 
@@ -18,7 +19,13 @@ std::shared_ptr<const PhaseFunction> Builder::phase(const SceneNode& node) {
   return once<PhaseFunction>(phases_, phase_table(), node);
 }
 std::shared_ptr<const Texture> Builder::texture(const SceneNode& node) {
-  return once<Texture>(textures_, node.category == Category::kVolume ? volume_table() : texture_table(), node);
+  if (node.category != Category::kVolume) return once<Texture>(textures_, texture_table(), node);
+  const auto constant = std::dynamic_pointer_cast<const ConstantVolume>(volume(node));
+  if (!constant) throw SceneError(node.where, node.describe() + " varies in space: this parameter takes no such thing");
+  return std::make_shared<ConstantTexture>(constant->value());
+}
+std::shared_ptr<const Volume> Builder::volume(const SceneNode& node) {
+  return once<Volume>(volumes_, volume_table(), node);
 }
 
 std::shared_ptr<const Texture> Builder::texture(const Properties& properties, const std::string& name) {
@@ -29,6 +36,18 @@ std::shared_ptr<const Texture> Builder::texture(const Properties& properties, co
   }
   if (!properties.has_value(name)) return nullptr;
   return std::make_shared<ConstantTexture>(properties.spectrum(name));
+}
+
+std::shared_ptr<const Volume> Builder::volume(const Properties& properties, const std::string& name) {
+  const SceneNode* node = properties.child(name);
+  if (node && node->category == Category::kVolume) {
+    const auto made = volume(*node);
+    if (const auto constant = std::dynamic_pointer_cast<const ConstantVolume>(made))
+      properties.check_range(name, constant->value());
+    return made;
+  }
+  if (!node && !properties.has_value(name)) return nullptr;
+  return std::make_shared<ConstantVolume>(spectrum(properties, name));
 }
 
 Spectrum Builder::spectrum(const Properties& properties, const std::string& name) {

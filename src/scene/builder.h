@@ -18,14 +18,17 @@ class Builder {
   double metres_per_unit() const { return metres_per_unit_; }
 
   std::shared_ptr<const Bsdf> bsdf(const SceneNode& node);
-  /// Textures and volumes.
+  /// Textures, and volumes that are the same everywhere.
   std::shared_ptr<const Texture> texture(const SceneNode& node);
+  std::shared_ptr<const Volume> volume(const SceneNode& node);
   std::shared_ptr<const Medium> medium(const SceneNode& node);
   std::shared_ptr<const PhaseFunction> phase(const SceneNode& node);
 
   /// A kTexture parameter: the texture inside, or a constant one of the value or the default; null when it is left out
   /// and has no default.
   std::shared_ptr<const Texture> texture(const Properties& properties, const std::string& name);
+  /// A kTexture parameter of something that fills space: the volume inside, or a constant one; null as above.
+  std::shared_ptr<const Volume> volume(const Properties& properties, const std::string& name);
   /// A kSpectrum parameter: a value, or the value of a texture or volume inside, which must be the same everywhere.
   Spectrum spectrum(const Properties& properties, const std::string& name);
   /// The plugin inside, or null.
@@ -51,6 +54,7 @@ class Builder {
   double metres_per_unit_;
   Cache<Bsdf> bsdfs_;
   Cache<Texture> textures_;
+  Cache<Volume> volumes_;
   Cache<Medium> media_;
   Cache<PhaseFunction> phases_;
   std::map<std::string, std::shared_ptr<const Texture>> pictures_;

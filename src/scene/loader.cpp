@@ -40,7 +40,7 @@ LoadedScene SceneLoader::load() {
 /// Materials, media and textures at the top that nobody may refer to: their errors count too.
 void SceneLoader::check_the_rest() {
   for (const SceneNode* node : nodes(Category::kTexture)) builder_.texture(*node);
-  for (const SceneNode* node : nodes(Category::kVolume)) builder_.texture(*node);
+  for (const SceneNode* node : nodes(Category::kVolume)) builder_.volume(*node);
   for (const SceneNode* node : nodes(Category::kPhase)) builder_.phase(*node);
   for (const SceneNode* node : nodes(Category::kMedium)) builder_.medium(*node);
   for (const SceneNode* node : nodes(Category::kBsdf)) builder_.bsdf(*node);

@@ -121,8 +121,8 @@ const MediumTable& medium_table() {
                        {"phase", kPhase, kOptional, "how it scatters; left out: isotropic, or the material's own"},
                        {"sample_emitters", kBoolean, "true", "accepted; no effect"},
                        {"has_spectral_extinction", kBoolean, "true", "accepted; no effect"}},
-        .make = make_homogeneous}},
-      {"heterogeneous"});
+        .make = make_homogeneous},
+       heterogeneous_row()});
   return table;
 }
 

@@ -8,6 +8,7 @@
 #include "sensor/sensor.h"
 #include "surface/bsdf.h"
 #include "texture/texture.h"
+#include "texture/volume.h"
 
 namespace turbid {
 
@@ -28,9 +29,11 @@ struct EmitterPlace {
 const PluginTable<std::shared_ptr<const Shape>, Builder>& shape_table();
 const PluginTable<std::shared_ptr<const Bsdf>, Builder>& bsdf_table();
 const PluginTable<std::shared_ptr<const Texture>, Builder>& texture_table();
-const PluginTable<std::shared_ptr<const Texture>, Builder>& volume_table();
+const PluginTable<std::shared_ptr<const Volume>, Builder>& volume_table();
 const PluginTable<std::shared_ptr<Emitter>, Builder, const EmitterPlace>& emitter_table();
 const PluginTable<std::shared_ptr<const Medium>, Builder>& medium_table();
+/// The row of that table which is made of volumes.
+Plugin<std::shared_ptr<const Medium>, Builder> heterogeneous_row();
 const PluginTable<std::shared_ptr<const PhaseFunction>, Builder>& phase_table();
 /// The film has been read already: a sensor's field of view needs its shape.
 const PluginTable<std::shared_ptr<const Sensor>, Builder, const FilmSettings>& sensor_table();

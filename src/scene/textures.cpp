@@ -1,4 +1,4 @@
-// Textures: quantities that vary over a surface; and volumes, of which only constant ones exist.
+// Textures: quantities that vary over a surface.
 #include <fmt/format.h>
 
 #include "scene/builder.h"
@@ -82,17 +82,6 @@ const TextureTable& texture_table() {
                                                            UvTransform(p.transform("to_uv")));
             }}},
       {"mesh_attribute", "volume", "regular", "irregular", "blackbody", "rawconstant", "sunsky", "normalmap"});
-  return table;
-}
-
-const TextureTable& volume_table() {
-  static const TextureTable table(
-      Category::kVolume,
-      {{.name = "constvolume",
-        .summary = "The same value everywhere.",
-        .parameters = {{"value", kSpectrum, "1", "the value"}},
-        .make = [](const Properties& p, Builder& b) { return constant(b.spectrum(p, "value")); }}},
-      {"gridvolume", "openvdb", "nanovdb"});
   return table;
 }
 

@@ -12,6 +12,7 @@ class ConstantVolume final : public Volume {
   explicit ConstantVolume(const Spectrum& value, const Transform& to_world = {})
       : value_(value), bounds_(bounds_of_unit_cube(to_world)) {}
 
+  const Spectrum& value() const { return value_; }
   Spectrum eval(const Vec3&) const override { return value_; }
   ValueRange range(const Bounds3&) const override { return {value_, value_, value_}; }
   const Bounds3& bounds() const override { return bounds_; }
