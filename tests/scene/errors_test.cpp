@@ -100,7 +100,8 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"<shape type=\"xyzzy\"/>",
                   "3 test.xml:2:1: unknown shape 'xyzzy' (expected one of: obj, ply, sphere, rectangle, cube, disk, "
                   "cylinder, generated)"},
-        Malformed{"<medium type=\"heterogenous\"/>", "3 test.xml:2:1: unknown medium 'heterogenous', did you mean 'heterogeneous'?"},
+        Malformed{"<medium type=\"heterogenous\"/>",
+                  "3 test.xml:2:1: unknown medium 'heterogenous', did you mean 'heterogeneous'?"},
         Malformed{"<bsdf type=\"diffuse\"><rgb name=\"reflectence\" value=\"0.5\"/></bsdf>",
                   "3 test.xml:2:33: unknown parameter of bsdf 'diffuse': 'reflectence', did you mean 'reflectance'?"},
         Malformed{
@@ -177,7 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
                   "value=\"2\"/></volume></medium>",
                   "3 test.xml:2:28: 'albedo' of medium 'homogeneous' is (2, 2, 2), expected numbers in [0, 1]"},
         Malformed{"<medium type=\"homogeneous\"><volume name=\"albedo\" type=\"gridvolume\"/></medium>",
-                  "3 test.xml:2:28: volume 'gridvolume' needs the parameter 'filename' (a string that names a file: version 3; "
+                  "3 test.xml:2:28: volume 'gridvolume' needs the parameter 'filename' (a string that names a file: "
+                  "version 3; "
                   "float32, float16 or uint8; 1 or 3 channels)"},
         Malformed{"<phase type=\"hg\"><float name=\"g\" value=\"1\"/></phase>",
                   "3 test.xml:2:41: 'g' of phase 'hg' is 1, expected a number in (-1, 1)"},
