@@ -6,7 +6,11 @@ namespace turbid {
 
 HomogeneousMedium::HomogeneousMedium(const Spectrum& sigma_t, const Spectrum& sigma_s,
                                      std::shared_ptr<const PhaseFunction> phase)
-    : Medium(std::move(phase)), sigma_t_(sigma_t), sigma_s_(sigma_s), grey_(sigma_t.min() == sigma_t.max()) {
+    : Medium(std::move(phase)),
+      sigma_t_(sigma_t),
+      sigma_s_(sigma_s),
+      grey_(sigma_t.min() == sigma_t.max()),
+      scatters_(sigma_s.max() > 0) {
   if (!sigma_t.is_finite() || !sigma_s.is_finite() || sigma_t.min() < 0 || sigma_s.min() < 0)
     throw std::invalid_argument("the coefficients of a medium must be finite and not negative");
   for (int c = 0; c < kChannels; ++c) {

@@ -23,14 +23,17 @@ class HomogeneousMedium final : public Medium {
   /// bits). With T_i = exp(-sigma_t,i t) for each channel i:
   ///   collision: weight_i = sigma_s,i T_i / sum_j mix_j sigma_t,j T_j
   ///   passed:    weight_i = T_i / probability, probability = sum_j mix_j T_j
-  /// A channel with sigma_t = 0 always passes. Where all channels have the same sigma_t the exponentials cancel.
+  /// A channel with sigma_t = 0 always passes. Where all channels have the same sigma_t the exponentials cancel. A
+  /// medium that only absorbs is always passed, with weight T_i and probability 1: coloured glass is free of noise.
   Flight flight(float t_max, const Spectrum& mix, float u) const {
+    if (!scatters_) return passage(t_max, mix);
     return grey_ ? grey_flight(t_max, u) : chromatic_flight(t_max, mix, u);
   }
 
   /// The flight that passes a distance t without a collision, for callers that learn t after they drew a longer one.
   Flight passage(float t, const Spectrum& mix) const {
     const Spectrum passed = transmittance(t);
+    if (!scatters_) return {false, 0, passed, 1};
     if (grey_) return {false, 0, Spectrum(1.0f), passed[0]};
     const float probability = (mix * passed).sum();
     return {false, 0, passed / probability, probability};
@@ -80,7 +83,7 @@ class HomogeneousMedium final : public Medium {
 
   Spectrum sigma_t_, sigma_s_, albedo_;
   Spectrum mean_free_path_;  ///< 1 / sigma_t, infinite where sigma_t = 0
-  bool grey_;
+  bool grey_, scatters_;
 };
 
 }  // namespace turbid

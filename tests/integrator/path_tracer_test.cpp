@@ -1,0 +1,178 @@
+#include "integrator/path_tracer.h"
+
+#include <gtest/gtest.h>
+
+#include "integrator/plain_tracer.h"
+#include "integrator/rendering.h"
+
+namespace turbid::testing {
+namespace {
+
+/// A ball with a medium, seen from the front; `content` adds what the test is about.
+std::string ball_scene(const std::string& content, const std::string& integrator = R"(<integrator type="volpath"/>)") {
+  return R"(<scene version="3.0.0">)" + integrator + R"(
+  <sensor type="perspective">
+    <float name="fov" value="39.3"/>
+    <transform name="to_world"><lookat origin="0,0.5,4" target="0,0,0" up="0,1,0"/></transform>
+    <film type="hdrfilm"><integer name="width" value="24"/><integer name="height" value="24"/><rfilter type="box"/></film>
+  </sensor>)" +
+         content + "</scene>";
+}
+
+const std::string kSky = R"(<emitter type="constant"><rgb name="radiance" value="1"/></emitter>)";
+const std::string kLamp = R"(
+  <shape type="sphere"><float name="radius" value="0.5"/><point name="center" value="2,3,1"/>
+    <emitter type="area"><rgb name="radiance" value="20"/></emitter></shape>)";
+
+std::string ball(const std::string& bsdf, const std::string& medium) {
+  return R"(<shape type="sphere">)" + bsdf + R"(<medium name="interior" type="homogeneous">)" + medium +
+         R"(</medium></shape>)";
+}
+
+const std::string kGlass =
+    R"(<bsdf type="dielectric"><float name="int_ior" value="1.33"/><float name="ext_ior" value="1"/></bsdf>)";
+const std::string kWaxBoundary =
+    R"(<bsdf type="dielectric"><float name="int_ior" value="1.446"/><float name="ext_ior" value="1"/></bsdf>)";
+const std::string kNull = R"(<bsdf type="null"/>)";
+const std::string kClear =
+    R"(<rgb name="sigma_s" value="0.495, 0.35, 0.495"/><rgb name="sigma_a" value="0.005, 0.15, 0.005"/>)";
+const std::string kWax =
+    R"(<rgb name="sigma_s" value="15.07, 15.27, 12.7"/><rgb name="sigma_a" value="0.307, 0.603, 4.237"/>
+  <phase type="hg"><float name="g" value="0.8"/></phase>)";
+const std::string kChromatic = R"(<rgb name="sigma_t" value="10, 2, 5"/><rgb name="albedo" value="0.5, 0.5, 0.99"/>
+  <phase type="hg"><float name="g" value="-0.4"/></phase>)";
+
+struct TwinCase {
+  const char* name;
+  std::string content;
+  uint32_t samples;
+};
+
+/// `volpath` against its plain twin: equal means; and, at equal sample counts, no more variance than the twin has.
+class Twins : public ::testing::TestWithParam<TwinCase> {};
+
+TEST_P(Twins, AgreeAndTheFastOneIsNotNoisier) {
+  const TwinCase& test = GetParam();
+  LoadedScene loaded = load_scene_from_string(ball_scene(test.content), "twin scene");
+  const IntegratorSetup setup = make_integrator(loaded.integrator);
+  const Scene scene(std::move(loaded.parts));
+  PlainTracer plain;
+  const ImageMean fast = mean_of(render_with(scene, *setup.integrator, test.samples, 1));
+  const ImageMean slow = mean_of(render_with(scene, plain, test.samples, 2));
+  for (int c = 0; c < kChannels; ++c)
+    EXPECT_LT(z_score(fast.mean[c], fast.error[c], slow.mean[c], slow.error[c]), 3.5)
+        << "channel " << c << ": " << fast.mean[c] << " against " << slow.mean[c];
+  EXPECT_LT(fast.variance, 1.03 * slow.variance);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Twins,
+                         ::testing::Values(TwinCase{"clear_sphere", kSky + ball(kGlass, kClear), 1000},
+                                           TwinCase{"wax_sphere", kLamp + ball(kWaxBoundary, kWax), 1500},
+                                           TwinCase{"chromatic_null", kSky + kLamp + ball(kNull, kChromatic), 1000},
+                                           TwinCase{"chromatic_glass", kSky + ball(kGlass, kChromatic), 3000},
+                                           TwinCase{"light_inside", ball(kNull, kClear) + R"(
+                        <shape type="sphere"><float name="radius" value="0.3"/>
+                          <emitter type="area"><rgb name="radiance" value="5"/></emitter></shape>)",
+                                                    1000},
+                                           TwinCase{"light_inside_glass", ball(kGlass, kChromatic) + R"(
+                        <shape type="sphere"><float name="radius" value="0.3"/>
+                          <emitter type="area"><rgb name="radiance" value="5"/></emitter></shape>)",
+                                                    1000}),
+                         [](const auto& instance) { return instance.param.name; });
+
+// The harness must notice a light that is 3 % too bright.
+TEST(TwinsHarness, NoticesAPlantedError) {
+  const ImageMean right = mean_of(render_text(ball_scene(kSky + ball(kGlass, kClear)), 1000));
+  const std::string brighter = R"(<emitter type="constant"><rgb name="radiance" value="1.03"/></emitter>)";
+  const ImageMean wrong = mean_of(render_text(ball_scene(brighter + ball(kGlass, kClear)), 1000, {}, 2));
+  EXPECT_GT(z_score(right.mean[0], right.error[0], wrong.mean[0], wrong.error[0]), 3.5);
+}
+
+TEST(PathTracer, CameraInTheCentreOfAnAbsorbingSphereSeesTheSkyThroughIt) {
+  const std::string scene = R"(<scene version="3.0.0"><integrator type="volpath"/>
+    <sensor type="perspective"><float name="fov" value="60"/><float name="near_clip" value="0.0001"/>
+      <film type="hdrfilm"><integer name="width" value="8"/><integer name="height" value="8"/><rfilter type="box"/></film>
+    </sensor>)" + kSky + ball("$", R"(<rgb name="sigma_a" value="0.5, 1, 2"/><rgb name="sigma_s" value="0"/>)") +
+                            "</scene>";
+  for (const std::string& boundary : {kNull, R"(<bsdf type="dielectric"><float name="int_ior" value="1"/>
+                                       <float name="ext_ior" value="1"/></bsdf>)" +
+                                                 std::string()}) {
+    std::string with_boundary = scene;
+    with_boundary.replace(with_boundary.find('$'), 1, boundary);
+    const ImageMean mean = mean_of(render_text(with_boundary, 4));
+    EXPECT_NEAR(mean.mean[0], std::exp(-0.5), 1e-4);
+    EXPECT_NEAR(mean.mean[1], std::exp(-1.0), 1e-4);
+    EXPECT_NEAR(mean.mean[2], std::exp(-2.0), 1e-4);
+  }
+}
+
+TEST(PathTracer, ScatteringOrdersAddUpToTheFullImage) {
+  const std::string content = kSky + kLamp + ball(kNull, kChromatic);
+  const auto render_orders = [&](const std::string& limits) {
+    return render_text(ball_scene(content, R"(<integrator type="volpath"><integer name="max_depth" value="12"/>)" +
+                                               limits + "</integrator>"),
+                       64);
+  };
+  const Film full = render_orders("");
+  Film sum(full.size());
+  for (int order = 0; order < 12; ++order) {
+    const std::string k = std::to_string(order);
+    sum.add(render_orders(R"(<integer name="min_scattering" value=")" + k +
+                          R"("/><integer name="max_scattering" value=")" + k + R"("/>)"));
+  }
+  for (size_t i = 0; i < full.pixel_count(); ++i)
+    for (int c = 0; c < kChannels; ++c)
+      EXPECT_NEAR(sum.pixel(i).radiance[c], full.pixel(i).radiance[c], 1e-4 * (1 + full.pixel(i).radiance[c]));
+}
+
+TEST(PathTracer, NullBoundariesCostNoDepth) {
+  // Three nested empty shells in front of the sky: one edge is enough to see it.
+  std::string shells;
+  for (const char* radius : {"0.3", "0.6", "0.9"})
+    shells += R"(<shape type="sphere"><float name="radius" value=")" + std::string(radius) +
+              R"("/><bsdf type="null"/></shape>)";
+  const ImageMean mean = mean_of(render_text(
+      ball_scene(kSky + shells, R"(<integrator type="volpath"><integer name="max_depth" value="1"/></integrator>)"),
+      4));
+  EXPECT_NEAR(mean.grey(), 1, 1e-12);
+}
+
+TEST(PathTracer, SingleScatteringOfAPointLightMatchesQuadrature) {
+  // Camera and light inside one large sphere of fog: L = int sigma_s f I exp(-sigma_t (t + d)) / d^2 dt along each ray.
+  const std::string scene = R"(<scene version="3.0.0">
+    <integrator type="volpath"><integer name="max_scattering" value="1"/><integer name="min_scattering" value="1"/></integrator>
+    <sensor type="perspective"><float name="fov" value="1"/><float name="near_clip" value="0.0001"/>
+      <film type="hdrfilm"><integer name="width" value="4"/><integer name="height" value="4"/><rfilter type="box"/></film>
+    </sensor>
+    <emitter type="point"><point name="position" value="0.5,0,2"/><rgb name="intensity" value="3"/></emitter>
+    <shape type="sphere"><float name="radius" value="100"/><bsdf type="null"/>
+      <medium name="interior" type="homogeneous"><rgb name="sigma_a" value="0.1"/><rgb name="sigma_s" value="0.4"/>
+        <phase type="hg"><float name="g" value="0.6"/></phase></medium></shape></scene>)";
+  const double sigma_t = 0.5, sigma_s = 0.4, g = 0.6, intensity = 3;
+  double expected = 0;
+  const double dt = 1e-4;
+  for (double t = dt / 2; t < 60; t += dt) {
+    const double z = 2 - t, d2 = 0.25 + z * z, d = std::sqrt(d2);
+    const double deflection = z / d;  // between the light's way to the ray and the ray's way back to the camera
+    const double f = (1 - g * g) / (4 * M_PI * std::pow(1 + g * g - 2 * g * deflection, 1.5));
+    expected += sigma_s * f * intensity * std::exp(-sigma_t * (t + d)) / d2 * dt;
+  }
+  const ImageMean mean = mean_of(render_text(scene, 100000));
+  EXPECT_LT(z_score(mean.grey(), mean.grey_error(), expected), 3.5) << mean.grey() << " against " << expected;
+  EXPECT_LT(mean.grey_error(), 0.005 * expected);
+}
+
+TEST(PathTracer, SobolAndIndependentSamplesAgree) {
+  const std::string content = kSky + kLamp + ball(kNull, kChromatic);
+  const auto with_sampler = [&](const std::string& type) {
+    std::string scene = ball_scene(content);
+    scene.insert(scene.find("<film"), R"(<sampler type=")" + type + R"("/>)");
+    return mean_of(render_text(scene, 1024));
+  };
+  const ImageMean independent = with_sampler("independent"), sobol = with_sampler("sobol");
+  for (int c = 0; c < kChannels; ++c)
+    EXPECT_LT(z_score(independent.mean[c], independent.error[c], sobol.mean[c], sobol.error[c]), 3.5);
+}
+
+}  // namespace
+}  // namespace turbid::testing
