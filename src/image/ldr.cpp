@@ -9,6 +9,7 @@
 #include "image/atomic_file.h"
 #include "image/color.h"
 #include "image/image_file.h"
+#include "image/jpeg_tables.h"
 
 namespace turbid {
 namespace {
@@ -44,6 +45,7 @@ Image make_image(const T* pixels, int width, int height, int count, const Value&
 
 Image read_ldr(const std::string& path, const std::string& bytes, PixelEncoding encoding) {
   if (bytes.size() > INT_MAX) throw FileError(path, "is too large for a picture of its kind");
+  if (!has_sound_huffman_tables(bytes)) throw FileError(path, "is a damaged JPEG file: impossible Huffman table");
   const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
   const auto size = static_cast<int>(bytes.size());
   int width = 0, height = 0, count = 0;

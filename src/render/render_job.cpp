@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <mutex>
 
@@ -112,6 +113,7 @@ class Job {
       }
       total_.add(film);
     }
+    statistics_.pass_seconds = clock_.seconds() - statistics_.prepare_seconds;
   }
 
   /// Called by the watching thread.
@@ -159,12 +161,18 @@ class Job {
     statistics_.interrupted = signals_.interrupted() && !short_pass_.pixel_count() && plan_.next(total_.samples());
     const bool keeps_checkpoint = has_files() && total_.samples() > 0 && (statistics_.interrupted || options_.resume);
     result.seconds = image_seconds();
+    std::exception_ptr failure;  // one file that cannot be written must not cost the others
     if (keeps_checkpoint) {
-      write_checkpoint(checkpoint_path(), options_.fingerprint, result.seconds, total_);
-      result.checkpoint = checkpoint_path();
+      try {
+        write_checkpoint(checkpoint_path(), options_.fingerprint, result.seconds, total_);
+        result.checkpoint = checkpoint_path();
+      } catch (const FileError&) {
+        failure = std::current_exception();
+      }
     }
     if (short_pass_.pixel_count()) total_.add(short_pass_);
     if (total_.samples() > 0) result.files = write_output(options_.output, total_, result.seconds);
+    if (failure) std::rethrow_exception(failure);
     if (has_files() && !keeps_checkpoint && !statistics_.interrupted) {
       std::error_code ignored;
       std::filesystem::remove(checkpoint_path(), ignored);

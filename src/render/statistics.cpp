@@ -37,6 +37,7 @@ std::string to_json(const RenderStatistics& s, const std::map<std::string, std::
   json["interrupted"] = s.interrupted;
   json["wall_seconds"] = s.wall_seconds;
   json["prepare_seconds"] = s.prepare_seconds;
+  json["pass_seconds"] = s.pass_seconds;
   json["cpu_seconds"] = s.cpu_seconds;
   json["passes"] = s.passes;
   json["samples_per_pixel"] = s.samples_per_pixel;

@@ -10,8 +10,9 @@ namespace turbid {
 struct RenderStatistics {
   Vec2i size{0, 0};
   bool interrupted = false;
-  double wall_seconds = 0;     ///< in passes
+  double wall_seconds = 0;     ///< of the render: preparation, passes and files
   double prepare_seconds = 0;  ///< before the first pass
+  double pass_seconds = 0;     ///< in passes, an abandoned one included
   double cpu_seconds = 0;      ///< of all threads, preparation included
   uint64_t passes = 0;
   uint64_t samples_per_pixel = 0;  ///< of the image, with those of earlier runs
@@ -19,7 +20,7 @@ struct RenderStatistics {
   uint64_t peak_memory = 0;        ///< largest resident size of the process, bytes
   Counters counters;               ///< of the integrator
 
-  double samples_per_second() const { return wall_seconds > 0 ? static_cast<double>(samples) / wall_seconds : 0; }
+  double samples_per_second() const { return pass_seconds > 0 ? static_cast<double>(samples) / pass_seconds : 0; }
   /// The value of a counter; 0 when the integrator has none of that name.
   uint64_t counter(const std::string& name) const;
 };

@@ -213,6 +213,46 @@ TEST(ImageFile, EightBitFilesAreDecodedAsColourOrAsData) {
   EXPECT_EQ(read_image(folder.file("a.jpg")).channel_names(), (std::vector<std::string>{"R", "G", "B"}));
 }
 
+TEST(ImageFile, DamagedEightBitFilesAreFileErrorsOrPictures) {
+  const TemporaryFolder folder;
+  std::vector<unsigned char> pixels(32 * 32 * 3);
+  Rng rng(4);
+  for (unsigned char& v : pixels) v = static_cast<unsigned char>(rng.next_u32());
+  std::string files[4];
+  stbi_write_png_to_func(collect, &files[0], 32, 32, 3, pixels.data(), 96);
+  stbi_write_bmp_to_func(collect, &files[1], 32, 32, 3, pixels.data());
+  stbi_write_tga_to_func(collect, &files[2], 32, 32, 3, pixels.data());
+  stbi_write_jpg_to_func(collect, &files[3], 32, 32, 3, pixels.data(), 90);
+  const std::string path = folder.file("bad");
+  for (const std::string& good : files) {
+    for (size_t length = 0; length < good.size(); length += 1 + length / 3) {
+      write_bytes(path, good.substr(0, length));
+      EXPECT_NO_THROW(reading_error(path));
+    }
+    for (int i = 0; i < 100; ++i) {
+      std::string bad = good;
+      // The header's sizes are left alone: a picture of gigabytes is slow, not wrong.
+      const size_t place = 24 + rng.next_u32() % (bad.size() - 24);
+      bad[place] = static_cast<char>(rng.next_u32());
+      write_bytes(path, bad);
+      EXPECT_NO_THROW(reading_error(path));
+    }
+  }
+}
+
+TEST(ImageFile, AJpegWithAnImpossibleHuffmanTableIsRefused) {
+  const TemporaryFolder folder;
+  const unsigned char pixels[3] = {1, 2, 3};
+  std::string bytes;
+  stbi_write_jpg_to_func(collect, &bytes, 1, 1, 3, pixels, 90);
+  const size_t tables = bytes.find("\xff\xc4");
+  ASSERT_NE(tables, std::string::npos);
+  bytes[tables + 5] = bytes[tables + 6] = '\xff';  // 510 codes of one and two bits
+  write_bytes(folder.file("a.jpg"), bytes);
+  EXPECT_EQ(reading_error(folder.file("a.jpg")),
+            folder.file("a.jpg") + ": is a damaged JPEG file: impossible Huffman table");
+}
+
 TEST(ImageFile, GreyAndHighDynamicRangeFiles) {
   const TemporaryFolder folder;
   const unsigned char grey[2] = {0, 255};
