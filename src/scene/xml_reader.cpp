@@ -47,15 +47,22 @@ std::string read_whole(const std::filesystem::path& path) {
   return text.str();
 }
 
-void check_version(const Element& root) {
+/// Is it a scene of Mitsuba 0.x? Throws SceneError for versions that are not understood.
+bool is_legacy(const Element& root) {
   const std::string version = root.get("version");
-  int major = 0;
+  int major = 0, minor = 0;
+  char dot = 0;
   std::istringstream stream(version);
   if (!(stream >> major))
     throw SceneError(root.where("version"), "'" + version + "' is not a version, expected for instance 3.0.0");
-  if (major < 2)
-    throw SceneError(root.where("version"),
-                     "this is a scene for Mitsuba " + version + "; only scenes of version 2.0.0 or later can be read");
+  if (major >= 2) return false;
+  stream >> dot >> minor;
+  constexpr int kOldestMinor = 4;  // before that, plugins had other names and sensors were mirrored
+  if (major == 0 && minor < kOldestMinor)
+    throw SceneError(root.where("version"), "this is a scene for Mitsuba " + version +
+                                                "; only scenes of version 0.4.0 or later can be read (Mitsuba 0.6 "
+                                                "saves older ones as 0.6.0)");
+  return true;
 }
 
 std::string list_of(const std::vector<std::filesystem::path>& folders) {
@@ -78,7 +85,7 @@ SceneDocument XmlReader::read_text(const std::string& text, const std::string& n
 
 SceneDocument XmlReader::finish(File& file) {
   document_.search_folders.push_back(file.folder);
-  const Element root = root_of(file, true);
+  const Element root = root_of(file, nullptr);
   if (root.tag() != "scene") root.refuse("the root is <" + root.tag() + ">, expected <scene>");
   root.check_attributes({"version"}, {"id"});
   auto scene = std::make_shared<SceneNode>();
@@ -119,17 +126,17 @@ XmlReader::File& XmlReader::parse(const std::string& text, const std::string& na
   return file;
 }
 
-Element XmlReader::root_of(File& file, bool needs_version) {
+Element XmlReader::root_of(File& file, const File* includer) {
   const pugi::xml_node node = file.xml.document_element();
   const Element root(node, file.source, variables_);
   for (pugi::xml_node next = node.next_sibling(); next; next = next.next_sibling())
     if (next.type() == pugi::node_element)
       root.element(next).refuse("a scene file has one root, found <" + std::string(next.name()) + "> after <" +
                                 root.tag() + ">");
-  if (root.has("version"))
-    check_version(root);
-  else if (needs_version)
+  if (!root.has("version") && !includer)
     root.refuse("<" + root.tag() + "> needs the attribute 'version', for instance version=\"3.0.0\"");
+  file.legacy = root.has("version") ? is_legacy(root) : includer->legacy;
+  if (file.legacy) upgrade_.upgrade_tags(node);
   return root;
 }
 
@@ -174,6 +181,7 @@ void XmlReader::read_object(const Element& element, Category category, SceneNode
   node->where = element.where();
   if (!node->id.empty()) references_.declare(node);
   read_children(element, *node, file);
+  if (file.legacy) upgrade_.upgrade_node(*node);
   owner.children.push_back({element.get("name"), node, element.where()});
 }
 
@@ -259,7 +267,7 @@ void XmlReader::read_include(const Element& element, SceneNode& owner, File& fil
   if (std::find(including_.begin(), including_.end(), std::filesystem::weakly_canonical(path)) != including_.end())
     throw SceneError(element.where("filename"), "cyclic include: '" + name + "' is already being read");
   File& included = open(path);
-  const Element root = root_of(included, false);
+  const Element root = root_of(included, &file);
   if (root.tag() == "scene") {
     read_children(root, owner, included);
   } else {

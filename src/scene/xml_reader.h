@@ -2,11 +2,12 @@
 #include <deque>
 
 #include "scene/element.h"
+#include "scene/legacy.h"
 #include "scene/references.h"
 
 namespace turbid {
 
-/// Reads Mitsuba 3 XML into a SceneDocument: variables, includes, paths, references and values are resolved; plugins
+/// Reads Mitsuba XML into a SceneDocument: variables, includes, paths, references and values are resolved; plugins
 /// are not interpreted.
 class XmlReader {
  public:
@@ -21,13 +22,15 @@ class XmlReader {
     SourceText source;
     std::filesystem::path folder;
     pugi::xml_document xml;
+    bool legacy = false;  ///< of Mitsuba 0.x
   };
 
   SceneDocument finish(File& file);
   File& open(const std::filesystem::path& path);
   File& parse(const std::string& text, const std::string& name, const std::filesystem::path& folder);
-  /// The one root tag; checks the version where there is one.
-  Element root_of(File& file, bool needs_version);
+  /// The one root tag; checks the version where there is one, and upgrades names of old ones. A file without a version
+  /// has that of `includer`.
+  Element root_of(File& file, const File* includer);
 
   void read_children(const Element& element, SceneNode& node, File& file);
   void read_child(const Element& element, SceneNode& node, File& file);
@@ -47,6 +50,7 @@ class XmlReader {
   SceneDocument document_;
   std::vector<std::filesystem::path> including_;  ///< the chain of files that are being read
   std::deque<File> files_;                        ///< kept for locations
+  LegacyUpgrade upgrade_;
   int depth_ = 0;
 };
 

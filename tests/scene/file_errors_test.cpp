@@ -66,10 +66,10 @@ TEST_F(FileErrors, AnEmptySceneAndOneThatIsNotText) {
 }
 
 TEST_F(FileErrors, VersionsThatCannotBeRead) {
-  write("main.xml", "<scene version=\"0.6.0\"/>");
+  write("main.xml", "<scene version=\"0.3.0\"/>");
   EXPECT_EQ(load_complaint("main.xml"),
-            "3 FOLDER/main.xml:1:17: this is a scene for Mitsuba 0.6.0; only scenes of version 2.0.0 or later can be "
-            "read\n  | <scene version=\"0.6.0\"/>\n  |                 ^");
+            "3 FOLDER/main.xml:1:17: this is a scene for Mitsuba 0.3.0; only scenes of version 0.4.0 or later can be "
+            "read (Mitsuba 0.6 saves older ones as 0.6.0)\n  | <scene version=\"0.3.0\"/>\n  |                 ^");
   write("main.xml", "<scene version=\"new\"/>");
   EXPECT_EQ(load_complaint("main.xml"),
             "3 FOLDER/main.xml:1:17: 'new' is not a version, expected for instance 3.0.0\n  | <scene "
