@@ -8,18 +8,22 @@
 namespace turbid {
 namespace {
 
-/// Power of each emitter, but never less than a share of the average: a light whose power estimate is poor (a dark map,
-/// a distant sun) must stay reachable at a bearable weight.
-DiscreteDistribution distribution_by_power(const std::vector<const Emitter*>& emitters) {
+/// Lights at infinity and lights in the scene share the choice evenly: the power of a sky is that of a disk around the
+/// whole scene and says nothing about what reaches any one place. Within each group power decides, but no light gets
+/// less than a share of the average: one whose power estimate is poor must stay reachable at a bearable weight.
+DiscreteDistribution distribution_of_choice(const std::vector<const Emitter*>& emitters) {
   constexpr float kLeastShare = 0.1f;
-  std::vector<float> weights;
-  float sum = 0;
+  float sums[2] = {}, counts[2] = {};
   for (const Emitter* emitter : emitters) {
-    weights.push_back(std::max(0.0f, emitter->power().mean()));
-    sum += weights.back();
+    sums[emitter->is_at_infinity()] += std::max(0.0f, emitter->power().mean());
+    counts[emitter->is_at_infinity()] += 1;
   }
-  const float least = sum > 0 ? kLeastShare * sum / static_cast<float>(weights.size()) : 1;
-  for (float& w : weights) w = std::max(w, least);
+  std::vector<float> weights;
+  for (const Emitter* emitter : emitters) {
+    const bool group = emitter->is_at_infinity();
+    const float share = sums[group] > 0 ? std::max(0.0f, emitter->power().mean()) / sums[group] : 0;
+    weights.push_back(std::max(share, kLeastShare / counts[group]));
+  }
   return DiscreteDistribution(weights);
 }
 
@@ -52,7 +56,7 @@ Scene::Scene(SceneParts parts) : parts_(std::move(parts)) {
 }
 
 void Scene::choose_probabilities() {
-  emitter_distribution_ = distribution_by_power(emitters_);
+  emitter_distribution_ = distribution_of_choice(emitters_);
   size_t index = 0;
   for (const auto& emitter : parts_.emitters) {
     if (emitter->is_environment())

@@ -89,7 +89,8 @@ class Scene {
   SamplerKind sampler() const { return parts_.sampler; }
   uint32_t sample_count() const { return parts_.sample_count; }
 
-  /// Chooses an emitter for next-event estimation by its power; empty scenes give null. `u` is rescaled for reuse.
+  /// Chooses an emitter for next-event estimation, by its power among its like; empty scenes give null. `u` is rescaled
+  /// for reuse.
   EmitterChoice choose_emitter(float& u) const;
   /// Probability that choose_emitter returns the emitter of the object that was hit; 0 when it does not shine.
   float emitter_prob(const Hit& hit) const { return object_emitter_prob_[hit.shape]; }
