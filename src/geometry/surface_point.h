@@ -5,6 +5,8 @@
 
 namespace turbid {
 
+class TriangleMesh;
+
 /// True when `direction` leads to the outside of a surface with geometric normal ng. The same in every place that asks:
 /// the products are exact in double, so the compiler cannot round them differently here and there, as it may with
 /// dot(). The medium behind a boundary and the side that a ray starts on must both be decided by this.
@@ -23,6 +25,7 @@ struct SurfacePoint {
   Vec3 dp_du, dp_dv;       ///< partial derivatives of p by uv
   uint32_t primitive = 0;  ///< triangle of a mesh; 0 for other shapes
   Vec2 barycentric{0, 0};  ///< weights (b1, b2) of the triangle's second and third vertex, for mesh attributes
+  const TriangleMesh* mesh = nullptr;  ///< that the point lies on, for its attributes; null for other shapes
 
   Vec3 to_local(const Vec3& v) const { return shading.to_local(v); }
   Vec3 to_world(const Vec3& v) const { return shading.to_world(v); }
