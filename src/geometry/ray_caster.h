@@ -1,15 +1,18 @@
 #pragma once
+#include <map>
 #include <memory>
 #include <vector>
 
+#include "geometry/placed_tree.h"
 #include "geometry/shape.h"
 #include "geometry/sphere.h"
 
 namespace turbid {
 
 /// All shapes of a scene: the nearest hit, occlusion, and free distances. Shapes lie in one Embree bounding-volume
-/// hierarchy, but for a few spheres, which are faster to ask one by one. Building is deterministic; queries are const
-/// and thread-safe.
+/// hierarchy, but for a few spheres, which are faster to ask one by one. Members of a placed group (place_group) must
+/// stand side by side in their order; the hierarchy of a group is built once. Building is deterministic; queries are
+/// const and thread-safe.
 class RayCaster {
  public:
   explicit RayCaster(std::vector<std::shared_ptr<const Shape>> shapes);
@@ -36,12 +39,20 @@ class RayCaster {
   static constexpr size_t kMaxLoneSpheres = 4;
 
   float tree_clearance(const Vec3& p, float limit) const;
+  void build();
+  void release();
+  void attach_placement(uint32_t first);
+  void commit(RTCScene scene, size_t primitives) const;
+  /// A hit of a group's member, as one of the shape that it is in the world.
+  Hit placed(const Hit& local, uint32_t first_member) const;
 
   std::vector<std::shared_ptr<const Shape>> shapes_;
   std::vector<LoneSphere> spheres_;
   Bounds3 bounds_;
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;  ///< null when nothing lies in it
+  std::map<const ShapeGroup*, RTCScene> groups_;
+  std::map<uint32_t, PlacedTree> placements_;  ///< by the number of their first member; it is their geometry's too
 };
 
 inline Hit RayCaster::intersect(const Ray& ray) const {
@@ -73,12 +84,14 @@ inline Hit RayCaster::intersect(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcIntersect1(scene_, &context, &cast);
-    if (cast.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-      return {.t = cast.ray.tfar,
-              .shape = cast.hit.geomID,
-              .primitive = cast.hit.primID,
-              .barycentric = {cast.hit.u, cast.hit.v},
-              .ng = {cast.hit.Ng_x, cast.hit.Ng_y, cast.hit.Ng_z}};
+    if (cast.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
+      const Hit found{.t = cast.ray.tfar,
+                      .shape = cast.hit.geomID,
+                      .primitive = cast.hit.primID,
+                      .barycentric = {cast.hit.u, cast.hit.v},
+                      .ng = {cast.hit.Ng_x, cast.hit.Ng_y, cast.hit.Ng_z}};
+      return cast.hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? found : placed(found, cast.hit.instID[0]);
+    }
   }
   if (lone_sphere == RTC_INVALID_GEOMETRY_ID) return {};
   const auto& sphere = static_cast<const Sphere&>(*shapes_[lone_sphere]);

@@ -59,20 +59,6 @@ V3d area_normal(const MeshData& mesh, size_t triangle) {
 }
 
 bool usable(const Vec3& n) { return std::isfinite(n.x + n.y + n.z) && length_squared(n) > 0; }
-
-/// n, unit, bent as little as possible to the front of ng.
-Vec3 bend_to_front(const Vec3& n, const Vec3& ng) {
-  constexpr float kLeastCosine = 1e-3f;  // far enough from the horizon for stable local coordinates
-  const float norm = length(n);
-  if (!(norm > 0)) return ng;
-  const Vec3 unit = n * (1 / norm);
-  const float cosine = dot(unit, ng);
-  if (cosine >= kLeastCosine) return unit;
-  const Vec3 tangent = unit - ng * cosine;
-  const float tangent_norm = length(tangent);
-  if (!(tangent_norm > 1e-4f)) return ng;  // exactly opposed: no direction to bend in
-  return normalize(tangent * (1 / tangent_norm) + ng * kLeastCosine);
-}
 }  // namespace
 
 TriangleMesh::TriangleMesh(MeshData data, bool flip_normals) : mesh_(std::move(data)) {
@@ -190,7 +176,7 @@ Vec3 TriangleMesh::eval_attribute(const MeshAttribute& attribute, const SurfaceP
   return result;
 }
 
-SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& barycentric) const {
+SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& barycentric, float extra_error) const {
   const uint32_t* i = &mesh_.indices[3 * size_t{triangle}];
   const Vec3 v0 = mesh_.positions[i[0]], v1 = mesh_.positions[i[1]], v2 = mesh_.positions[i[2]];
   // In double and rounded once: what remains is the rounding of the position to float.
@@ -215,7 +201,7 @@ SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& bary
                     std::max({std::abs(v0.z), std::abs(v1.z), std::abs(v2.z)}));
 
   SurfacePoint s;
-  s.error = rounding_error(extent) + cast_error + edge_slack_;
+  s.error = rounding_error(extent) + cast_error + edge_slack_ + extra_error;
 
   // A point nearer to an edge than a few errors could be moved, by its own rounding or by leave(), beyond the
   // neighbouring triangle. It is taken back into this one: at a distance of k errors from its edges it stays on the
@@ -227,6 +213,7 @@ SurfacePoint TriangleMesh::point_on_triangle(uint32_t triangle, const Vec2& bary
   if (std::min({b.x, b.y, 1 - b.x - b.y}) < margin) b = Vec2(margin) + b * (1 - 3 * margin);
 
   const V3d exact = origin + edge1 * static_cast<double>(b.x) + edge2 * static_cast<double>(b.y);
+  s.mesh = this;
   s.primitive = triangle;
   s.barycentric = b;
   s.p = Vec3(exact);

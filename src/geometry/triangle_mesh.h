@@ -45,8 +45,9 @@ class TriangleMesh final : public Shape {
   float distance_bound(const Vec3& p, uint32_t primitive) const override;
 
   /// The point with barycentric weights (1 - b.x - b.y, b.x, b.y) of a triangle; points closer to an edge than a few
-  /// rounding errors are moved inwards to that distance.
-  SurfacePoint point_on_triangle(uint32_t triangle, const Vec2& barycentric) const;
+  /// rounding errors are moved inwards to that distance. `extra_error` is added to the error bound: rounding that
+  /// rays from there will suffer elsewhere.
+  SurfacePoint point_on_triangle(uint32_t triangle, const Vec2& barycentric, float extra_error = 0) const;
 
  private:
   void drop_degenerate_triangles();

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "geometry/instance.h"
 #include "shapes_for_tests.h"
 
 namespace turbid {
@@ -16,10 +17,10 @@ struct Crossings {
 
 /// A random walk over the inside and the outside of a closed shape: from each hit on in a random direction; every other
 /// ray starts afresh and grazes the surface. Along any ray entering and leaving must alternate.
-Crossings walk(const Shape& shape, int steps, uint64_t seed,
+Crossings walk(const std::shared_ptr<const Shape>& owned, int steps, uint64_t seed,
                const std::function<Vec3(const SurfacePoint&, const Vec3&)>& leave) {
-  // The caster does not own the shape.
-  const RayCaster caster({std::shared_ptr<const Shape>(&shape, [](const Shape*) {})});
+  const Shape& shape = *owned;
+  const RayCaster caster({owned});
   Crossings result;
   Rng rng(seed);
   SurfacePoint at = shape.sample_area(random_square(rng)).point;
@@ -44,6 +45,12 @@ Crossings walk(const Shape& shape, int steps, uint64_t seed,
     }
   }
   return result;
+}
+
+/// The same for a shape that the caster does not own.
+Crossings walk(const Shape& shape, int steps, uint64_t seed,
+               const std::function<Vec3(const SurfacePoint&, const Vec3&)>& leave) {
+  return walk(std::shared_ptr<const Shape>(&shape, [](const Shape*) {}), steps, seed, leave);
 }
 
 Vec3 leave_rightly(const SurfacePoint& s, const Vec3& d) { return s.leave(d); }
@@ -94,6 +101,26 @@ TEST(Leave, SliversAreNeverCrossedTwice) {
     const Crossings c = walk(TriangleMesh(data), 200'000, 4, leave_rightly);
     EXPECT_EQ(c.wrong_side, 0) << data.name;
     EXPECT_EQ(c.lost, 0) << data.name;
+  }
+}
+
+TEST(Leave, InstancesAreNeverCrossedTwice) {
+  const std::vector<std::shared_ptr<const Shape>> members{
+      mesh_shape(make_icosphere(1, 3)), mesh_shape(placed(make_bumpy_sphere(1, 0.4f, 4, 3, 4), 1, {20, 10, -30})),
+      mesh_shape(placed(make_rounded_box({1, 0.5f, 0.25f}, 0.1f, 3), 0.5, {0.1, 0, 0.2})),
+      std::make_shared<Sphere>(Vec3(3, 0, 1), 0.5f)};
+  for (const auto& member : members) {
+    const auto group = std::make_shared<const ShapeGroup>(ShapeGroup{{member}});
+    for (const auto& [scale, offset] : kPlacements)
+      for (const Transform& stretch : {Transform(), Transform::scale(-3, 1, 0.2)}) {
+        const Imath::V3d at = offset * scale;
+        const auto shape =
+            place_group(group, Transform::translate(at.x, at.y, at.z) * Transform::scale(scale, scale, scale) *
+                                   Transform::rotate(1, 2, 3, 70) * stretch)[0];
+        const Crossings c = walk(shape, 20'000, 5, leave_rightly);
+        EXPECT_EQ(c.wrong_side, 0) << &member - members.data() << ' ' << scale;
+        EXPECT_EQ(c.lost, 0) << &member - members.data() << ' ' << scale;
+      }
   }
 }
 
