@@ -26,7 +26,7 @@ Passage pass_empty_space(const Scene& scene, const Ray& ray, SampleCounters& cou
 }
 
 Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, Sampler& sampler,
-                      SampleCounters& counters) {
+                      SampleCounters& counters, const MediumStack* enclosing) {
   Passage passage;
   if (!scene.has_null_surfaces()) {
     passage = pass_empty_space(scene, ray, counters);
@@ -36,6 +36,8 @@ Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectru
     }
     return passage;
   }
+  MediumStack media;
+  if (enclosing) media = *enclosing;
   while (true) {
     ++counters.shadow_rays;
     const Hit hit = scene.rays().intersect(ray);
@@ -47,14 +49,21 @@ Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectru
     if (!hit) return passage;
 
     const Object& object = scene.object(hit);
-    if (!(object.bsdf->flags() & lobe::kNull)) return kBlocked;
+    const bool hidden = enclosing && media.hides(object);
+    if (!hidden && !(object.bsdf->flags() & lobe::kNull)) return kBlocked;
     const SurfacePoint point = object.shape->surface_point(ray, hit);
-    const Spectrum through = object.bsdf->null_transmission(point, point.to_local(-ray.direction));
-    if (through.is_black()) return kBlocked;
-    passage.transmittance *= through;
-    passage.prob *= null_prob(through);
-    throughput *= through;
-    if (object.bounds_media) medium = object.medium_towards(point.ng, ray.direction);
+    if (!hidden) {
+      const Spectrum through = object.bsdf->null_transmission(point, point.to_local(-ray.direction));
+      if (through.is_black()) return kBlocked;
+      passage.transmittance *= through;
+      passage.prob *= null_prob(through);
+      throughput *= through;
+    }
+    if (enclosing) {
+      media.cross(object, point.ng, -ray.direction, ray.direction);
+      medium = media.medium();
+    } else if (object.bounds_media)
+      medium = object.medium_towards(point.ng, ray.direction);
     ray.origin = point.leave(ray.direction);
     ray.t_max -= hit.t;
   }

@@ -20,9 +20,10 @@ inline float null_prob(const Spectrum& null_transmission) { return null_transmis
 inline Spectrum channel_mix(const Spectrum& throughput) { return throughput / throughput.sum(); }
 
 /// Walks along `ray` up to ray.t_max (infinite: to a light at infinity) through null surfaces and media. `throughput`
-/// is that of the walk along this direction (any scale): it sets the mixture of the channels.
+/// is that of the walk along this direction (any scale): it sets the mixture of the channels. `enclosing`: the shapes
+/// around the origin, in scenes with priorities only; `medium` is then its medium.
 Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, Sampler& sampler,
-                      SampleCounters& counters);
+                      SampleCounters& counters, const MediumStack* enclosing = nullptr);
 
 /// The line is free of any surface; media are ignored.
 Passage pass_empty_space(const Scene& scene, const Ray& ray, SampleCounters& counters);

@@ -18,7 +18,11 @@ template <bool kVolumes>
 class Walk {
  public:
   Walk(const Scene& scene, const PathSettings& settings, Sampler& sampler, SampleCounters& counters)
-      : scene_(scene), settings_(settings), sampler_(sampler), counters_(counters) {}
+      : scene_(scene),
+        settings_(settings),
+        sampler_(sampler),
+        counters_(counters),
+        stacked_(kVolumes && scene.has_priorities()) {}
 
   PixelSample run(const SensorRay& camera) {
     if (settings_.max_depth <= 0) return {Spectrum(0.0f), 0};
@@ -42,7 +46,10 @@ class Walk {
   void begin(const SensorRay& camera) {
     ray_ = camera.ray;
     throughput_ = Spectrum(camera.weight);
-    if constexpr (kVolumes) enter(scene_.sensor_medium());
+    if constexpr (kVolumes) {
+      if (stacked_) media_ = scene_.sensor_media();
+      enter(scene_.sensor_medium());
+    }
     if (camera.near_t > 0) {
       if (kVolumes && medium_)
         throughput_ *= medium_->transmittance({ray_.origin, ray_.direction, camera.near_t}, sampler_);
@@ -163,6 +170,10 @@ class Walk {
   bool arrive_at_surface(const Hit& hit) {
     const Object& object = scene_.object(hit);
     const SurfacePoint point = object.shape->surface_point(ray_, hit);
+    if (stacked_ && media_.hides(object)) {
+      pass_surface(object, point, hit.t, Spectrum(1.0f));
+      return true;
+    }
     if (object.emitter) add_emission(*object.emitter, scene_.emitter_prob(hit), point);
 
     const Bsdf& bsdf = *object.bsdf;
@@ -210,8 +221,12 @@ class Walk {
   }
 
   void leave(const Object& object, const SurfacePoint& point, const Vec3& direction) {
-    if constexpr (kVolumes)
-      if (object.bounds_media) enter(object.medium_towards(point.ng, direction));
+    if (stacked_) {
+      media_.cross(object, point.ng, -ray_.direction, direction);
+      enter(media_.medium());
+    } else if (kVolumes && object.bounds_media) {
+      enter(object.medium_towards(point.ng, direction));
+    }
     ray_ = {point.leave(direction), direction};
     free_radius2_ = 0;
   }
@@ -299,8 +314,14 @@ class Walk {
     const Ray shadow = shadow_ray(*light, point ? point->leave(light->wi) : from);
     Passage passage;
     if constexpr (kVolumes) {
-      const Medium* medium = object && object->bounds_media ? object->medium_towards(point->ng, light->wi) : medium_;
-      passage = pass_straight(scene_, shadow, medium, towards, sampler_, counters_);
+      if (stacked_) {
+        MediumStack media = media_;
+        if (object) media.cross(*object, point->ng, -ray_.direction, light->wi);
+        passage = pass_straight(scene_, shadow, media.medium(), towards, sampler_, counters_, &media);
+      } else {
+        const Medium* medium = object && object->bounds_media ? object->medium_towards(point->ng, light->wi) : medium_;
+        passage = pass_straight(scene_, shadow, medium, towards, sampler_, counters_);
+      }
     } else {
       passage = pass_empty_space(scene_, shadow, counters_);
     }
@@ -331,6 +352,8 @@ class Walk {
   int order_ = 0;        ///< collisions in media behind us
   float eta_scale_ = 1;  ///< squared index here / at the sensor: takes the radiance scaling out of the roulette
 
+  const bool stacked_;  ///< media_ decides; else the surface that is crossed
+  MediumStack media_;
   const Medium* medium_ = nullptr;
   const HomogeneousMedium* homogeneous_ = nullptr;
   const Surroundings* surroundings_ = nullptr;

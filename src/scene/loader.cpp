@@ -31,6 +31,7 @@ LoadedScene SceneLoader::load() {
   const Properties nothing(scene, no_parameters);
 
   check_the_rest();
+  load_world();
   load_shapes();
   load_emitters();
   load_sensor();
@@ -66,6 +67,28 @@ void SceneLoader::load_shapes() {
   for (size_t i = 0; i < all.size(); ++i) parts_.objects.push_back(assemble(*all[i], std::move(shapes[i])));
 }
 
+/// The `priority` of a shape, else of its interior medium.
+void SceneLoader::read_priority(const Properties& shape, Object& object) const {
+  const auto take = [&](const Properties& p) {
+    object.priority = static_cast<int>(p.integer("priority"));
+    object.priority_declared = true;
+  };
+  if (shape.has("priority")) return take(shape);
+  const SceneNode* medium = shape.child("interior");
+  if (!medium) return;
+  const Properties p(*medium, medium_table().row_of(*medium).parameters, document_.get());
+  if (p.has("priority")) take(p);
+}
+
+/// A medium directly in the scene with the name "world".
+void SceneLoader::load_world() {
+  for (const Child& child : document_->root->children) {
+    if (child.node->category != Category::kMedium || child.name != "world") continue;
+    if (parts_.world_medium) throw SceneError(child.where, "a scene can have one medium named 'world'");
+    parts_.world_medium = builder_.medium(*child.node);
+  }
+}
+
 Object SceneLoader::assemble(const SceneNode& node, std::shared_ptr<const Shape> shape) {
   const Properties p(node, shape_table().row_of(node).parameters, document_.get());
   Object object;
@@ -74,6 +97,7 @@ Object SceneLoader::assemble(const SceneNode& node, std::shared_ptr<const Shape>
   object.interior = builder_.medium(p, "interior");
   object.exterior = builder_.medium(p, "exterior");
   object.bounds_media = object.interior || object.exterior;
+  read_priority(p, object);
   if (const SceneNode* emitter = p.child("emitter")) {
     const auto made = emitter_table().make(*emitter, document_.get(), builder_, EmitterPlace{shape});
     object.emitter = std::dynamic_pointer_cast<SurfaceEmitter>(made);

@@ -119,6 +119,7 @@ const MediumTable& medium_table() {
                         "the scattering given is sigma_s (1 - g), g of the phase function"},
                        {"material", kString, kOptional, "a measured medium: see `turbid list materials`"},
                        {"phase", kPhase, kOptional, "how it scatters; left out: isotropic, or the material's own"},
+                       kPriority,
                        {"sample_emitters", kBoolean, "true", "accepted; no effect"},
                        {"has_spectral_extinction", kBoolean, "true", "accepted; no effect"}},
         .make = make_homogeneous},

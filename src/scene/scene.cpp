@@ -51,8 +51,24 @@ Scene::Scene(SceneParts parts) : parts_(std::move(parts)) {
   }
   choose_probabilities();
 
-  sensor_medium_ = parts_.sensor_medium_declared ? parts_.sensor_medium.get() : medium_at(parts_.sensor->position());
+  find_enclosures();
+  const Vec3& eye = parts_.sensor->position();
+  if (has_priorities_) sensor_media_ = media_at(eye);
+  sensor_medium_ = parts_.sensor_medium_declared && !has_priorities_ ? parts_.sensor_medium.get() : medium_at(eye);
   find_media();
+}
+
+void Scene::find_enclosures() {
+  const Medium* world = parts_.world_medium.get();
+  has_priorities_ = world || std::any_of(parts_.objects.begin(), parts_.objects.end(),
+                                         [](const Object& object) { return object.priority_declared; });
+  if (!has_priorities_) return;
+  has_null_surfaces_ = true;
+  for (Object& object : parts_.objects) {
+    const bool lets_in = object.bsdf->flags() & (lobe::kTransmission | lobe::kNull);
+    object.encloses = object.interior || object.priority_declared ||
+                      (world && lets_in && !object.bounds_media && object.shape->is_closed());
+  }
 }
 
 void Scene::choose_probabilities() {
@@ -74,6 +90,8 @@ void Scene::find_media() {
     if (medium && !known) media_.push_back(survey(medium));
   };
   remember(sensor_medium_);
+  remember(parts_.world_medium.get());
+  if (parts_.sensor_medium_declared) remember(parts_.sensor_medium.get());
   for (const Object& object : parts_.objects) {
     remember(object.interior.get());
     remember(object.exterior.get());
@@ -83,7 +101,8 @@ void Scene::find_media() {
 Surroundings Scene::survey(const Medium* medium) const {
   Surroundings result{medium, true, true, false, 1 / medium->max_sigma_t()};
   // A medium that was declared for the sensor, or lies outside of a shape, may be without end.
-  if (parts_.sensor_medium_declared && medium == sensor_medium_) result.bounded = false;
+  if (parts_.sensor_medium_declared && medium == parts_.sensor_medium.get()) result.bounded = false;
+  if (medium == parts_.world_medium.get()) result.bounded = false;
   Bounds3 extent;
   float thinnest = kInfinity;
   for (const Object& object : parts_.objects) {
@@ -99,7 +118,8 @@ Surroundings Scene::survey(const Medium* medium) const {
   const bool lit_inside = std::any_of(emitters_.begin(), emitters_.end(), [&](const Emitter* emitter) {
     return !emitter->is_at_infinity() && emitter->bounds().intersects(extent);
   });
-  if (!result.bounded || lit_inside) result.blind = false;
+  // With priorities a medium may also end where another one begins.
+  if (!result.bounded || lit_inside || has_priorities_) result.blind = false;
   constexpr float kDenseThickness = 8;  // mean free paths across
   result.dense = result.bounded && thinnest > kDenseThickness * result.mean_free_path;
   return result;
@@ -113,7 +133,23 @@ EmitterChoice Scene::choose_emitter(float& u) const {
   return {emitters_[chosen.index], chosen.prob};
 }
 
+MediumStack Scene::media_at(const Vec3& p) const {
+  const bool declared = parts_.sensor_medium_declared && p == parts_.sensor->position();
+  MediumStack stack(declared ? parts_.sensor_medium.get() : world_medium());
+  // A shape encloses p when a ray from there leaves it more often than it enters it.
+  std::vector<int> exits(parts_.objects.size());
+  Ray ray{p, normalize(Vec3(0.0317f, 0.0173f, 1))};
+  while (const Hit hit = rays_->intersect(ray)) {
+    exits[hit.shape] += leads_outside(hit.ng, ray.direction) ? 1 : -1;
+    ray.origin = parts_.objects[hit.shape].shape->surface_point(ray, hit).leave(ray.direction);
+  }
+  for (size_t i = 0; i < exits.size(); ++i)
+    for (int n = 0; n < exits[i] && parts_.objects[i].encloses; ++n) stack.enter(parts_.objects[i]);
+  return stack;
+}
+
 const Medium* Scene::medium_at(const Vec3& p) const {
+  if (has_priorities_) return media_at(p).medium();
   // Any direction tells for closed boundaries; open ones (a water surface) are met by one of six that avoid symmetry
   // axes.
   constexpr float kTilt = 0.0317f, kTwist = 0.0173f;

@@ -8,6 +8,7 @@
 #include "geometry/ray_caster.h"
 #include "image/filter.h"
 #include "medium/medium.h"
+#include "scene/medium_stack.h"
 #include "sensor/sensor.h"
 #include "surface/bsdf.h"
 
@@ -21,6 +22,9 @@ struct Object {
   bool bounds_media = false;                ///< interior or exterior was declared: crossing it changes the medium
   std::shared_ptr<SurfaceEmitter> emitter;  ///< null: does not shine
   std::string id;                           ///< name in the scene file, for messages
+  int priority = 0;                         ///< see MediumStack
+  bool priority_declared = false;
+  bool encloses = false;  ///< for MediumStack; found by Scene
 
   /// The medium on the side that `direction` (pointing away from the surface) leads to.
   const Medium* medium_towards(const Vec3& ng, const Vec3& direction) const {
@@ -44,6 +48,7 @@ struct SceneParts {
   std::shared_ptr<const Sensor> sensor;
   std::shared_ptr<const Medium> sensor_medium;
   bool sensor_medium_declared = false;
+  std::shared_ptr<const Medium> world_medium;  ///< fills what no shape encloses; null: vacuum
   FilmSettings film;
   SamplerKind sampler = SamplerKind::kIndependent;
   uint32_t sample_count = 16;
@@ -97,14 +102,23 @@ class Scene {
 
   /// Medium that the sensor stands in: declared by the file, else found by casting a ray (`medium_at`).
   const Medium* sensor_medium() const { return sensor_medium_; }
-  /// The medium around p: that on the near side of the first surface that bounds media, seen from p. Null: vacuum.
+  /// The medium around p: that on the near side of the first surface that bounds media, seen from p. Null: vacuum. In
+  /// scenes with priorities that of media_at.
   const Medium* medium_at(const Vec3& p) const;
+  /// The scene declares a priority or a world medium: walks find their way through media with a MediumStack.
+  bool has_priorities() const { return has_priorities_; }
+  /// The shapes around p, counted by the surfaces that one ray from p meets.
+  MediumStack media_at(const Vec3& p) const;
+  /// The same where the sensor stands. Only in scenes with priorities.
+  const MediumStack& sensor_media() const { return sensor_media_; }
+  const Medium* world_medium() const { return parts_.world_medium.get(); }
   /// All media of the scene, each once.
   const std::vector<Surroundings>& media() const { return media_; }
   /// What is known about the space that a medium of this scene fills.
   const Surroundings& surroundings(const Medium* medium) const;
 
-  /// Some surface lets light pass straight on: shadow rays must walk from surface to surface.
+  /// Some surface lets light pass straight on, or may (see MediumStack::hides): shadow rays must walk from surface to
+  /// surface.
   bool has_null_surfaces() const { return has_null_surfaces_; }
 
   /// Sphere around everything; media that fill unbounded space end at kWorldScale times its radius.
@@ -116,6 +130,7 @@ class Scene {
 
  private:
   void choose_probabilities();
+  void find_enclosures();
   void find_media();
   Surroundings survey(const Medium* medium) const;
 
@@ -127,7 +142,8 @@ class Scene {
   DiscreteDistribution emitter_distribution_;
   const Medium* sensor_medium_ = nullptr;
   std::vector<Surroundings> media_;
-  bool has_null_surfaces_ = false;
+  bool has_null_surfaces_ = false, has_priorities_ = false;
+  MediumStack sensor_media_;
   Vec3 center_;
   float radius_ = 1;
 };

@@ -15,6 +15,8 @@ class SceneLoader {
   /// The top-level nodes of a category, each once, in the order of the file.
   std::vector<const SceneNode*> nodes(Category category) const;
   void load_shapes();
+  void load_world();
+  void read_priority(const Properties& shape, Object& object) const;
   Object assemble(const SceneNode& node, std::shared_ptr<const Shape> shape);
   void load_emitters();
   void load_sensor();

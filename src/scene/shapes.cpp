@@ -26,7 +26,8 @@ Parameters with_common(Parameters own) {
                              {"bsdf", kBsdf, kOptional, "left out: diffuse 0.5, or black when the shape shines"},
                              {"emitter", kEmitter, kOptional, "of type area: the shape shines"},
                              {"interior", kMedium, kOptional, "medium inside"},
-                             {"exterior", kMedium, kOptional, "medium outside"}};
+                             {"exterior", kMedium, kOptional, "medium outside"},
+                             kPriority};
   own.insert(own.end(), common.begin(), common.end());
   return own;
 }

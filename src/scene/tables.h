@@ -25,6 +25,10 @@ struct EmitterPlace {
   std::shared_ptr<const Shape> shape;
 };
 
+/// Of shapes and of media: see MediumStack.
+inline const Parameter kPriority{"priority", ParameterType::kInteger, kOptional,
+                                 "of overlapping shapes with media the highest counts; left out: 0", Range{-1e9, 1e9}};
+
 // One table per category, one file per table. Adding a plugin: its class in its room, and a row here.
 const PluginTable<std::shared_ptr<const Shape>, Builder>& shape_table();
 const PluginTable<std::shared_ptr<const Bsdf>, Builder>& bsdf_table();

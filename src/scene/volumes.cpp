@@ -127,6 +127,7 @@ Plugin<std::shared_ptr<const Medium>, Builder> heterogeneous_row() {
                       "kelvin: what is absorbed is emitted as by a black body of this temperature", kNonNegative},
                      {"emission_scale", kFloat, "1", "factor of the emission", kNonNegative},
                      {"phase", kPhase, kOptional, "how it scatters; left out: isotropic"},
+                     kPriority,
                      {"sample_emitters", kBoolean, "true", "accepted; no effect"},
                      {"has_spectral_extinction", kBoolean, "true", "accepted; no effect"}},
       .make = make_heterogeneous};
