@@ -25,6 +25,9 @@ bool is_byte(float v) {
   return scaled >= 0 && scaled <= 255 && std::abs(scaled - std::round(scaled)) < 1e-3f;
 }
 
+/// Far outside, pixel numbers would overflow an int and neighbours coincide in float: there the texture means nothing.
+constexpr float kFar = 1e9f;
+
 }  // namespace
 
 BitmapTexture::BitmapTexture(const std::string& path, const BitmapSettings& settings) : settings_(settings) {
@@ -107,8 +110,6 @@ Spectrum BitmapTexture::pixel(int x, int y) const {
 }
 
 Spectrum BitmapTexture::eval(const SurfacePoint& point) const {
-  // Far outside, pixel numbers would overflow an int and neighbours coincide in float: there the texture means nothing.
-  constexpr float kFar = 1e9f;
   const Vec2 uv = settings_.to_uv(point.uv);
   const float x = uv.x * static_cast<float>(width_), y = uv.y * static_cast<float>(height_);
   if (!(std::abs(x) < kFar && std::abs(y) < kFar)) return mean_;
@@ -118,6 +119,24 @@ Spectrum BitmapTexture::eval(const SurfacePoint& point) const {
   const float wx = x - 0.5f - left, wy = y - 0.5f - top;
   const int i = static_cast<int>(left), j = static_cast<int>(top);
   return lerp(lerp(pixel(i, j), pixel(i + 1, j), wx), lerp(pixel(i, j + 1), pixel(i + 1, j + 1), wx), wy);
+}
+
+float BitmapTexture::scalar_pixel(int x, int y) const {
+  const Spectrum v = pixel(x, y);
+  return channels_ == 1 ? v[0] : v.luminance();
+}
+
+Vec2 BitmapTexture::gradient(const SurfacePoint& point) const {
+  const Vec2 uv = settings_.to_uv(point.uv);
+  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
+  const float x = uv.x * width - 0.5f, y = uv.y * height - 0.5f;
+  if (settings_.filter == BitmapFilter::kNearest || !(std::abs(x) < kFar && std::abs(y) < kFar)) return {0, 0};
+  const float left = std::floor(x), top = std::floor(y);
+  const int i = static_cast<int>(left), j = static_cast<int>(top);
+  const float f00 = scalar_pixel(i, j), f10 = scalar_pixel(i + 1, j);
+  const float f01 = scalar_pixel(i, j + 1), f11 = scalar_pixel(i + 1, j + 1);
+  return settings_.to_uv.pull_back(
+      {width * std::lerp(f10 - f00, f11 - f01, y - top), height * std::lerp(f01 - f00, f11 - f10, x - left)});
 }
 
 float BitmapTexture::eval_scalar(const SurfacePoint& point) const {

@@ -34,6 +34,8 @@ class BitmapTexture final : public Texture {
 
   Spectrum eval(const SurfacePoint& point) const override;
   float eval_scalar(const SurfacePoint& point) const override;
+  /// Exact for bilinear interpolation, 0 for nearest pixels.
+  Vec2 gradient(const SurfacePoint& point) const override;
   Spectrum mean() const override { return mean_; }
   float max() const override { return max_; }
 
@@ -50,6 +52,7 @@ class BitmapTexture final : public Texture {
   int wrap(int i, int n) const;
   float value(size_t index) const { return bytes_.empty() ? floats_[index] : decode_[bytes_[index]]; }
   Spectrum pixel(int x, int y) const;
+  float scalar_pixel(int x, int y) const;
 
   BitmapSettings settings_;
   int width_ = 0, height_ = 0;

@@ -11,6 +11,8 @@ class Texture {
   virtual Spectrum eval(const SurfacePoint& point) const = 0;
   /// One number where a scalar is asked for: the luminance of eval() for a colour texture, the value for a grey one.
   virtual float eval_scalar(const SurfacePoint& point) const { return eval(point).luminance(); }
+  /// Derivatives of eval_scalar() by u and v, for bump maps: 0 where the texture is constant in pieces.
+  virtual Vec2 gradient(const SurfacePoint&) const { return {0, 0}; }
   /// Mean over the uv square (or an estimate), for light selection and reports.
   virtual Spectrum mean() const = 0;
   /// The same value everywhere: kernels may then skip the look-up's arguments.

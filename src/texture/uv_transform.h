@@ -14,6 +14,9 @@ class UvTransform {
 
   Vec2 operator()(const Vec2& uv) const { return {u_.x * uv.x + u_.y * uv.y + u_.z, v_.x * uv.x + v_.y * uv.y + v_.z}; }
 
+  /// The gradient by the surface's parameters of a function whose gradient by the mapped ones is g.
+  Vec2 pull_back(const Vec2& g) const { return {u_.x * g.x + v_.x * g.y, u_.y * g.x + v_.y * g.y}; }
+
  private:
   Vec3 u_{1, 0, 0}, v_{0, 1, 0};
 };

@@ -186,5 +186,31 @@ TEST(Bitmap, MissingAndBrokenFilesAreErrors) {
   EXPECT_THROW(BitmapTexture texture(path), FileError);
 }
 
+/// Bilinear interpolation has an exact slope between pixel centres; it follows to_uv.
+TEST(Bitmap, GradientIsTheSlopeOfTheScalar) {
+  BitmapSettings settings = with(BitmapFilter::kBilinear, BitmapWrap::kRepeat);
+  settings.to_uv = UvTransform(Transform::rotate(0, 0, 1, 30) * Transform::scale(1.5, 0.7, 1));
+  Image colours(4, 2, {"R", "G", "B"});
+  for (size_t i = 0; i < 8; ++i) {
+    colours.channel("R")[i] = static_cast<float>(i * i);
+    colours.channel("G")[i] = static_cast<float>(i % 3);
+    colours.channel("B")[i] = static_cast<float>(7 - i);
+  }
+  for (const Image& image : {ramp(), colours}) {
+    const BitmapTexture texture(image, settings);
+    for (const Vec2& uv : {Vec2(0.41f, 0.17f), Vec2(0.83f, 0.42f), Vec2(-0.62f, 0.55f)}) {
+      constexpr float kStep = 1e-3f;  // stays within one cell at these points; the scalar is bilinear there
+      const Vec2 gradient = texture.gradient(at(uv.x, uv.y));
+      const float du = texture.eval_scalar(at(uv.x + kStep, uv.y)) - texture.eval_scalar(at(uv.x - kStep, uv.y));
+      const float dv = texture.eval_scalar(at(uv.x, uv.y + kStep)) - texture.eval_scalar(at(uv.x, uv.y - kStep));
+      EXPECT_NEAR(gradient.x, du / (2 * kStep), 2e-2f);
+      EXPECT_NEAR(gradient.y, dv / (2 * kStep), 2e-2f);
+      EXPECT_GT(std::abs(gradient.x) + std::abs(gradient.y), 0.1f);
+    }
+  }
+  EXPECT_EQ(BitmapTexture(ramp(), with(BitmapFilter::kNearest, BitmapWrap::kRepeat)).gradient(at(0.4f, 0.2f)),
+            Vec2(0, 0));
+}
+
 }  // namespace
 }  // namespace turbid
