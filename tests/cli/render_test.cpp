@@ -13,6 +13,7 @@
 #include "image/image_file.h"
 #include "render/checkpoint.h"
 #include "small_scene.h"
+#include "testing/peer_scenes.h"
 #include "testing/temporary_folder.h"
 
 namespace turbid {
@@ -204,11 +205,8 @@ TEST_F(Program, ComparesImages) {
 }
 
 TEST_F(Program, ReadsTheReferencesAndVariancesOfMitsubasRenderTests) {
-  const char* set = std::getenv("TURBID_PEER_SCENES");
-  const fs::path root = fs::path(__FILE__).parent_path() / "../..";
-  const fs::path refs =
-      (set ? fs::path(set) : root / "../shared/peer-scenes/mitsuba3") / "tests/scenes/participating_media/refs";
-  if (!fs::exists(refs)) GTEST_SKIP() << "no peer scenes at " << refs << " (TURBID_PEER_SCENES names their folder)";
+  const fs::path refs = testing::peer_scenes() / "tests/scenes/participating_media/refs";
+  if (!fs::exists(refs)) GTEST_SKIP() << testing::peer_scenes_absent();
   const std::string reference = fs::absolute(refs / "test_homo_area_light_ref_rgb.exr").string();
   const std::string variance = fs::absolute(refs / "test_homo_area_light_ref_rgb_var.exr").string();
   EXPECT_NE(run({"compare", reference, reference, "--variance", variance, "--spp", "100"}).output.find("accepted"),

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "reading.h"
+#include "testing/peer_scenes.h"
 #include "testing/temporary_folder.h"
 
 namespace turbid::testing {
@@ -129,10 +130,8 @@ TEST(Document, ReadsSpectraFromFiles) {
 
 /// Mitsuba's own test scenes, where they are at hand.
 TEST(Document, ReadsThePeersScenes) {
-  const char* set = std::getenv("TURBID_PEER_SCENES");
-  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  const std::filesystem::path folder = set ? set : root / "../shared/peer-scenes/mitsuba3";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no peer scenes in " << folder;
+  const std::filesystem::path folder = peer_scenes();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << peer_scenes_absent();
   int count = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();

@@ -7,6 +7,7 @@
 #include "reading.h"
 #include "scene/builder.h"
 #include "scene/catalog.h"
+#include "testing/peer_scenes.h"
 #include "testing/temporary_folder.h"
 
 namespace turbid::testing {
@@ -197,10 +198,8 @@ TEST(Catalog, DefaultsAreValidValues) {
 
 /// Mitsuba's own test scenes, where they are at hand: all but one use only what exists.
 TEST(Loader, ReadsThePeersScenes) {
-  const char* set = std::getenv("TURBID_PEER_SCENES");
-  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
-  const std::filesystem::path folder = set ? set : root / "../shared/peer-scenes/mitsuba3";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no peer scenes in " << folder;
+  const std::filesystem::path folder = peer_scenes();
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << peer_scenes_absent();
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("test_") || entry.path().extension() != ".xml") continue;
