@@ -16,6 +16,7 @@ set(optimiser_warnings -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -W
 target_compile_options(turbid_common_options INTERFACE
   -Wall -Wextra -Wconversion -Wshadow $<$<BOOL:${TURBID_WERROR}>:-Werror>
   "$<$<CXX_COMPILER_ID:GNU>:${optimiser_warnings}>"
+  $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>  # which GCC does not count among conversions in C++
   -fno-math-errno -fno-trapping-math
   $<$<BOOL:${TURBID_NATIVE}>:-march=native>)
 
