@@ -16,4 +16,7 @@ inline Imath::V3d map_vector(const Transform& m, const Imath::V3d& v) {
   return linear_column(m, 0) * v.x + linear_column(m, 1) * v.y + linear_column(m, 2) * v.z;
 }
 
+/// The least length that a unit vector is mapped to (the least singular value); 0 when the map is not affine.
+double least_stretch(const Transform& m);
+
 }  // namespace turbid

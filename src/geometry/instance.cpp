@@ -1,7 +1,5 @@
 #include "geometry/instance.h"
 
-#include <Imath/ImathMatrixAlgo.h>
-
 #include <stdexcept>
 
 #include "geometry/affine.h"
@@ -10,34 +8,12 @@
 
 namespace turbid {
 using Imath::V3d;
-namespace {
-
-/// Columns of the linear part as an Imath matrix; its singular values do not care about the order.
-Imath::M33d linear_part(const Transform& m) {
-  Imath::M33d result;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) result[row][column] = m.at(row, column);
-  return result;
-}
-
-double least_singular_value(const Transform& m) {
-  Imath::M33d u, v;
-  V3d s;
-  Imath::jacobiSVD(linear_part(m), u, s, v);
-  return std::min({s.x, s.y, s.z});
-}
-
-bool is_affine(const Transform& m) { return m.at(3, 0) == 0 && m.at(3, 1) == 0 && m.at(3, 2) == 0 && m.at(3, 3) == 1; }
-
-}  // namespace
-
 GroupPlacement::GroupPlacement(std::shared_ptr<const ShapeGroup> group, const Transform& to_world)
     : group_(std::move(group)), to_world_(to_world), to_group_(to_world.inverse()) {
-  if (!is_affine(to_world)) throw std::invalid_argument("instance: to_world must be affine");
   constexpr double kSafely = 1 - 1e-6;  // rounding must not raise it
-  least_stretch_ = static_cast<float>(kSafely * least_singular_value(to_world));
+  least_stretch_ = static_cast<float>(kSafely * turbid::least_stretch(to_world));
   if (!(least_stretch_ > 0) || !std::isfinite(1 / least_stretch_))
-    throw std::invalid_argument("instance: to_world flattens what it places");
+    throw std::invalid_argument("instance: to_world must be affine and not flatten what it places");
 }
 
 float GroupPlacement::local_error(const Vec3& local) const {

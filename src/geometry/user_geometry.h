@@ -18,19 +18,35 @@ inline Bounds3 widened(const Bounds3& bounds) {
   return {bounds.min - margin, bounds.max + margin};
 }
 
-/// An Embree geometry of one primitive that `Surface` intersects itself. Surface has
+/// A surface of several primitives takes their number beside the ray.
+template <class Surface>
+double first_crossing(const Surface& surface, const Vec3& origin, const Vec3& direction, uint32_t primitive) {
+  if constexpr (requires { surface.intersect(origin, direction, primitive); })
+    return surface.intersect(origin, direction, primitive);
+  else
+    return surface.intersect(origin, direction);
+}
+template <class Surface>
+Bounds3 primitive_bounds(const Surface& surface, uint32_t primitive) {
+  if constexpr (requires { surface.cell_bounds(primitive); })
+    return surface.cell_bounds(primitive);
+  else
+    return surface.bounds();
+}
+
+/// An Embree geometry whose primitives `Surface` intersects itself. Surface is a Shape and has
 ///   double intersect(const Vec3& origin, const Vec3& direction) const;  first t > 0, or infinity
 ///   Vec3 normal_at(const Imath::V3d& p) const;                          on the outside, of a point that it returned
-///   Bounds3 bounds() const;
+/// and, when there are several primitives, intersect(..., uint32_t primitive) and cell_bounds(uint32_t primitive).
 template <class Surface>
 RTCGeometry make_user_geometry(RTCDevice device, const Surface* surface) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, 1);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(surface->primitive_count()));
   rtcSetGeometryUserData(geometry, const_cast<Surface*>(surface));  // only ever read back as const
   rtcSetGeometryBoundsFunction(
       geometry,
       [](const RTCBoundsFunctionArguments* args) {
-        const Bounds3 b = widened(static_cast<const Surface*>(args->geometryUserPtr)->bounds());
+        const Bounds3 b = widened(primitive_bounds(*static_cast<const Surface*>(args->geometryUserPtr), args->primID));
         *args->bounds_o = {b.min.x, b.min.y, b.min.z, 0, b.max.x, b.max.y, b.max.z, 0};
       },
       nullptr);
@@ -41,7 +57,7 @@ RTCGeometry make_user_geometry(RTCDevice device, const Surface* surface) {
     auto* cast = reinterpret_cast<RTCRayHit*>(args->rayhit);
     const Vec3 origin(cast->ray.org_x, cast->ray.org_y, cast->ray.org_z);
     const Vec3 direction(cast->ray.dir_x, cast->ray.dir_y, cast->ray.dir_z);
-    const double t = shape->intersect(origin, direction);
+    const double t = first_crossing(*shape, origin, direction, args->primID);
     if (!(t < static_cast<double>(cast->ray.tfar))) return;
     const Vec3 normal = shape->normal_at(Imath::V3d(origin) + Imath::V3d(direction) * t);
     cast->ray.tfar = std::max(static_cast<float>(t), std::numeric_limits<float>::min());
@@ -51,7 +67,8 @@ RTCGeometry make_user_geometry(RTCDevice device, const Surface* surface) {
     if (args->valid[0] == 0) return;
     const auto* shape = static_cast<const Surface*>(args->geometryUserPtr);
     auto* ray = reinterpret_cast<RTCRay*>(args->ray);
-    const double t = shape->intersect({ray->org_x, ray->org_y, ray->org_z}, {ray->dir_x, ray->dir_y, ray->dir_z});
+    const double t = first_crossing(*shape, {ray->org_x, ray->org_y, ray->org_z}, {ray->dir_x, ray->dir_y, ray->dir_z},
+                                    args->primID);
     if (t < static_cast<double>(ray->tfar)) ray->tfar = -kInfinity;
   });
   rtcCommitGeometry(geometry);
