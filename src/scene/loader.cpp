@@ -1,10 +1,8 @@
 #include "scene/loader.h"
 
 #include <algorithm>
-#include <exception>
 #include <set>
 
-#include "core/parallel.h"
 #include "scene/scene_loader.h"
 #include "sensor/perspective.h"
 #include "surface/diffuse.h"
@@ -50,23 +48,6 @@ void SceneLoader::check_the_rest() {
   for (const SceneNode* node : nodes(Category::kFilter)) filter_table().make(*node, document_.get(), builder_);
 }
 
-void SceneLoader::load_shapes() {
-  const std::vector<const SceneNode*> all = nodes(Category::kShape);
-  // Files are read in parallel; of several errors the first in the file is reported.
-  std::vector<std::shared_ptr<const Shape>> shapes(all.size());
-  std::vector<std::exception_ptr> errors(all.size());
-  parallel_for(all.size(), [&](size_t i) {
-    try {
-      shapes[i] = shape_table().make(*all[i], document_.get(), builder_);
-    } catch (...) {
-      errors[i] = std::current_exception();
-    }
-  });
-  for (const std::exception_ptr& error : errors)
-    if (error) std::rethrow_exception(error);
-  for (size_t i = 0; i < all.size(); ++i) parts_.objects.push_back(assemble(*all[i], std::move(shapes[i])));
-}
-
 /// The `priority` of a shape, else of its interior medium.
 void SceneLoader::read_priority(const Properties& shape, Object& object) const {
   const auto take = [&](const Properties& p) {
@@ -99,6 +80,7 @@ Object SceneLoader::assemble(const SceneNode& node, std::shared_ptr<const Shape>
   object.bounds_media = object.interior || object.exterior;
   read_priority(p, object);
   if (const SceneNode* emitter = p.child("emitter")) {
+    if (!(shape->area() > 0)) p.refuse("emitter", "cannot be given: this shape cannot shine");
     const auto made = emitter_table().make(*emitter, document_.get(), builder_, EmitterPlace{shape});
     object.emitter = std::dynamic_pointer_cast<SurfaceEmitter>(made);
   }

@@ -46,6 +46,8 @@ const char* to_string(ParameterType type) {
       return "rfilter";
     case ParameterType::kIntegrator:
       return "integrator";
+    case ParameterType::kShape:
+      return "shape";
   }
   return "?";
 }

@@ -31,6 +31,7 @@ enum class ParameterType {
   kSampler,
   kFilter,
   kIntegrator,
+  kShape,
 };
 const char* to_string(ParameterType type);
 /// True for the types from kBsdf on; kTexture is a value that may be a child.

@@ -107,6 +107,8 @@ ParameterType type_of_children(Category category) {
       return ParameterType::kFilter;
     case Category::kIntegrator:
       return ParameterType::kIntegrator;
+    case Category::kShape:
+      return ParameterType::kShape;
     default:
       return ParameterType::kTexture;
   }

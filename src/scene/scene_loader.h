@@ -1,4 +1,7 @@
 #pragma once
+#include <map>
+
+#include "geometry/instance.h"
 #include "scene/builder.h"
 #include "scene/loader.h"
 
@@ -15,6 +18,10 @@ class SceneLoader {
   /// The top-level nodes of a category, each once, in the order of the file.
   std::vector<const SceneNode*> nodes(Category category) const;
   void load_shapes();
+  /// The shapes of these nodes; their files are read in parallel.
+  std::map<const SceneNode*, std::shared_ptr<const Shape>> make_shapes(const std::vector<const SceneNode*>& nodes);
+  void place_instance(const SceneNode& node, const std::shared_ptr<const ShapeGroup>& group,
+                      const std::vector<Object>& materials);
   void load_world();
   void read_priority(const Properties& shape, Object& object) const;
   Object assemble(const SceneNode& node, std::shared_ptr<const Shape> shape);

@@ -1,4 +1,6 @@
 // Shapes: geometry alone. What they are made of (bsdf, media, emitter) belongs to every shape, see loader.cpp.
+#include <fmt/format.h>
+
 #include <set>
 
 #include "geometry/basic_meshes.h"
@@ -6,10 +8,12 @@
 #include "geometry/disk.h"
 #include "geometry/generated.h"
 #include "geometry/mesh_file.h"
+#include "geometry/sdf_grid.h"
 #include "geometry/sphere.h"
 #include "geometry/triangle_mesh.h"
 #include "scene/builder.h"
 #include "scene/values.h"
+#include "texture/vol_file.h"
 
 namespace turbid {
 namespace {
@@ -30,6 +34,24 @@ Parameters with_common(Parameters own) {
                              kPriority};
   own.insert(own.end(), common.begin(), common.end());
   return own;
+}
+
+ShapePtr make_sdf_grid(const Properties& p, Builder& b) {
+  const VolFile file = read_vol(b.file(p, "filename"));
+  const Voxel& size = file.voxels.size();
+  if (file.voxels.channels() != 1)
+    p.refuse("filename", fmt::format("an sdfgrid takes a grid of 1 channel, found {}", file.voxels.channels()));
+  SdfSamples samples{{size.x, size.y, size.z}, {}};
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x) samples.values.push_back(file.voxels.at(x, y, z)[0]);
+  const auto normals = p.string("normals") == "smooth" ? SdfGrid::Normals::kSmooth : SdfGrid::Normals::kAnalytic;
+  return std::make_shared<SdfGrid>(std::move(samples), normals, p.transform("to_world"), p.boolean("flip_normals"));
+}
+
+/// Containers are opened by ShapeTree before anything is made.
+ShapePtr make_container(const Properties& p, Builder&) {
+  throw std::logic_error(p.node().describe() + " is a container");
 }
 
 Parameters mesh_file(const char* flip_tex_coords) {
@@ -91,6 +113,17 @@ const ShapeTable& shape_table() {
         .summary = "A triangle mesh from a PLY file, ascii or binary.",
         .parameters = mesh_file("false"),
         .make = make_from_file<load_ply>},
+       {.name = "serialized",
+        .summary = "A triangle mesh from a file of Mitsuba's compressed format.",
+        .parameters = with_common({{"filename", kFile, kRequired, "version 3 or 4"},
+                                   {"shape_index", kInteger, "0", "which of its meshes, from 0", kNonNegative},
+                                   {"face_normals", kBoolean, "false", "facets: no vertex normals"}}),
+        .make =
+            [](const Properties& p, Builder& b) {
+              const MeshFileOptions options{p.transform("to_world"), p.boolean("face_normals")};
+              return std::make_shared<TriangleMesh>(
+                  load_serialized(b.file(p, "filename"), p.integer("shape_index"), options), p.boolean("flip_normals"));
+            }},
        {.name = "sphere",
         .summary = "A sphere.",
         .parameters = with_common({{"center", kPoint, "0, 0, 0", "middle, in the shape's space"},
@@ -126,9 +159,30 @@ const ShapeTable& shape_table() {
        {.name = "generated",
         .summary = "A triangle mesh made by a generator.",
         .parameters = generated_parameters(),
-        .make = make_generated_shape}},
-      {"serialized", "instance", "shapegroup", "merge", "sdfgrid", "bsplinecurve", "linearcurve", "ellipsoids",
-       "ellipsoidsmesh", "blender"});
+        .make = make_generated_shape},
+       {.name = "sdfgrid",
+        .summary = "The surface where samples of a signed distance on the unit cube, interpolated, are 0.",
+        .parameters = with_common({{"filename", kFile, kRequired, "a Mitsuba .vol file of 1 channel, negative inside"},
+                                   {.name = "normals",
+                                    .type = kString,
+                                    .default_text = "smooth",
+                                    .meaning = "of shading: blended over cells, or as the surface is",
+                                    .choices = {"smooth", "analytic"}}}),
+        .make = make_sdf_grid},
+       {.name = "shapegroup",
+        .summary = "Shapes that are seen through instances only, and held in memory once.",
+        .parameters = {{"shapes", kShape, kOptional, "any number of shapes that do not shine; names do not matter"}},
+        .make = make_container},
+       {.name = "instance",
+        .summary = "All shapes of a group, with their materials and media, in another place.",
+        .parameters = {{"shapegroup", kShape, kRequired, "the group"},
+                       {"to_world", kTransform, "identity", "from the group's space; any affine map"}},
+        .make = make_container},
+       {.name = "merge",
+        .summary = "Shapes, as if they stood outside.",
+        .parameters = {{"shapes", kShape, kOptional, "any number of shapes; names do not matter"}},
+        .make = make_container}},
+      {"bsplinecurve", "linearcurve", "ellipsoids", "ellipsoidsmesh", "blender"});
   return table;
 }
 
