@@ -15,6 +15,8 @@ class AreaLight final : public SurfaceEmitter {
 
   /// Empty where the drawn point turns its back on `from`.
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
+  /// Uniform over the surface, cosine-distributed about its geometric normal.
+  std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
   /// The geometric normal decides which side is the outside.
   Spectrum Le(const SurfacePoint& point, const Vec3& w) const override {
     return dot(point.ng, w) > 0 ? radiance_->eval(point) : Spectrum();

@@ -10,7 +10,6 @@ class ConstantEnvironment final : public EnvironmentEmitter {
   /// Radiance in W/(sr m^2).
   explicit ConstantEnvironment(const Spectrum& radiance) : radiance_(radiance) {}
 
-  void set_scene_bounds(const Vec3&, float radius) override { radius_ = radius; }
   /// Uniform over the sphere of directions.
   std::optional<DirectLightSample> sample_direct(const Vec3&, const Vec2& u) const override {
     return DirectLightSample{.wi = square_to_sphere(u),
@@ -22,11 +21,10 @@ class ConstantEnvironment final : public EnvironmentEmitter {
   Spectrum Le(const Vec3&) const override { return radiance_; }
   float pdf_direct_w(const Vec3&) const override { return kUniformSpherePdfW; }
   /// From all directions, each through the disk of the scene's bounding sphere.
-  Spectrum power() const override { return radiance_ * (4 * sqr(kPi * radius_)); }
+  Spectrum power() const override { return radiance_ * (4 * kPi * disk_area()); }
 
  private:
   Spectrum radiance_;
-  float radius_ = 1;
 };
 
 }  // namespace turbid

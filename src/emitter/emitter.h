@@ -17,6 +17,16 @@ struct DirectLightSample {
   bool delta = false;  ///< point, spot, directional: no other technique can find it
 };
 
+/// A ray that leaves a light, chosen in proportion to what it carries as nearly as the light knows how.
+struct EmissionSample {
+  Vec3 origin;      ///< off the light's own surface, on the side that the ray leaves to
+  Vec3 direction;   ///< unit, away from the light
+  Spectrum weight;  ///< flux: Le |cos| / (pdf_a pdf_w) with the factors that exist, W
+  float pdf_a = 0;  ///< of the origin, per unit area (lights at infinity: of a plane across the direction); 0: a point
+  float pdf_w = 0;  ///< of the direction given the origin, 1/sr; 0: a single direction
+  Vec3 ng;          ///< geometric normal at the origin, for lights with a surface; else zero
+};
+
 /// A source of light. Immutable after `set_scene_bounds`, shared between threads.
 class Emitter {
  public:
@@ -27,6 +37,10 @@ class Emitter {
 
   /// Chooses a direction to this light from `from`; takes two numbers.
   virtual std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const = 0;
+
+  /// Chooses a ray that leaves this light; takes four numbers. May be empty (a black place of a picture). Lights at
+  /// infinity start their rays on the bounding sphere that set_scene_bounds gave, uniform in the disk across.
+  virtual std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const = 0;
 
   /// Can a ray meet it by chance? False for delta lights.
   virtual bool can_be_hit() const = 0;
@@ -42,6 +56,10 @@ class Emitter {
   virtual Spectrum power() const = 0;
 };
 
+/// The start of a ray that comes from infinity along `direction`: uniform in the disk of the bounding sphere across it,
+/// moved back to the sphere. The density is 1 / (pi radius^2) per unit area across.
+Vec3 start_from_infinity(const Vec3& center, float radius, const Vec3& direction, const Vec2& u);
+
 /// Light at infinity: constant, environment map.
 class EnvironmentEmitter : public Emitter {
  public:
@@ -51,6 +69,21 @@ class EnvironmentEmitter : public Emitter {
   virtual float pdf_direct_w(const Vec3& direction) const = 0;
   bool can_be_hit() const final { return true; }
   bool is_environment() const final { return true; }
+
+  void set_scene_bounds(const Vec3& center, float radius) final {
+    center_ = center;
+    radius_ = radius;
+  }
+  /// The direction as sample_direct chooses it, the start in the disk across.
+  std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const final;
+
+ protected:
+  /// Area of the disk of the scene's bounding sphere.
+  float disk_area() const { return kPi * sqr(radius_); }
+
+ private:
+  Vec3 center_;
+  float radius_ = 1;
 };
 
 /// A surface that shines: one-sided, on the outside of its shape.

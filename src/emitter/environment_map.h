@@ -25,13 +25,12 @@ class EnvironmentMap final : public EnvironmentEmitter {
   /// to_world must keep angles. Else std::invalid_argument.
   EnvironmentMap(std::vector<Spectrum> pixels, int width, int height, const Transform& to_world, float scale);
 
-  void set_scene_bounds(const Vec3&, float radius) override { radius_ = radius; }
   /// Empty only for a black map.
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
   Spectrum Le(const Vec3& direction) const override;
   float pdf_direct_w(const Vec3& direction) const override;
   /// From all directions, each through the disk of the scene's bounding sphere.
-  Spectrum power() const override { return radiance_integral_ * (kPi * sqr(radius_)); }
+  Spectrum power() const override { return radiance_integral_ * disk_area(); }
 
  private:
   /// A cell of four pixels and the place in it.
@@ -57,7 +56,6 @@ class EnvironmentMap final : public EnvironmentEmitter {
   DiscreteDistribution rows_;                  ///< of cells
   Spectrum radiance_integral_;                 ///< over the sphere, W/m^2
   double luminance_integral_ = 0;              ///< of the interpolation that is sampled
-  float radius_ = 1;
 };
 
 }  // namespace turbid

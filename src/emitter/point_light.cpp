@@ -1,5 +1,7 @@
 #include "emitter/point_light.h"
 
+#include "core/warp.h"
+
 namespace turbid {
 
 std::optional<DirectLightSample> PointLight::sample_direct(const Vec3& from, const Vec2&) const {
@@ -11,6 +13,14 @@ std::optional<DirectLightSample> PointLight::sample_direct(const Vec3& from, con
                            .position = position_,
                            .weight = intensity_ / sqr(distance),
                            .delta = true};
+}
+
+std::optional<EmissionSample> PointLight::sample_emission(const Vec2&, const Vec2& u_direction) const {
+  return EmissionSample{.origin = position_,
+                        .direction = square_to_sphere(u_direction),
+                        .weight = intensity_ / kUniformSpherePdfW,
+                        .pdf_w = kUniformSpherePdfW,
+                        .ng = Vec3(0)};
 }
 
 }  // namespace turbid

@@ -11,6 +11,8 @@ class PointLight final : public Emitter {
 
   /// Empty only at the light itself.
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
+  /// Uniform over the sphere of directions.
+  std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }
   Spectrum power() const override { return intensity_ * (4 * kPi); }

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "core/warp.h"
+
 namespace turbid {
 namespace {
 float radians(float degrees) { return degrees * (kPi / 180); }
@@ -11,6 +13,7 @@ SpotLight::SpotLight(const Transform& to_world, const Spectrum& intensity, float
                      std::shared_ptr<const Texture> texture)
     : to_local_(to_world.inverse()),
       position_(to_world.point(Vec3(0))),
+      axis_(normalize(to_world.vector(Vec3(0, 0, 1)))),
       intensity_(intensity),
       cutoff_(radians(cutoff_angle)),
       beam_(radians(beam_width)),
@@ -47,6 +50,16 @@ std::optional<DirectLightSample> SpotLight::sample_direct(const Vec3& from, cons
   if (value.is_black()) return std::nullopt;
   return DirectLightSample{
       .wi = wi, .distance = distance, .position = position_, .weight = value / sqr(distance), .delta = true};
+}
+
+std::optional<EmissionSample> SpotLight::sample_emission(const Vec2&, const Vec2& u_direction) const {
+  const Vec3 direction = axis_.to_world(square_to_cone(u_direction, cos_cutoff_));
+  const float pdf_w = cone_pdf_w(cos_cutoff_);
+  return EmissionSample{.origin = position_,
+                        .direction = direction,
+                        .weight = intensity(direction) / pdf_w,
+                        .pdf_w = pdf_w,
+                        .ng = Vec3(0)};
 }
 
 Spectrum SpotLight::power() const {

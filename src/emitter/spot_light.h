@@ -19,6 +19,8 @@ class SpotLight final : public Emitter {
 
   /// Empty outside the cone.
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
+  /// Uniform over the cone.
+  std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }
   /// Exact without a texture; with one, its mean stands for it.
@@ -30,6 +32,7 @@ class SpotLight final : public Emitter {
  private:
   Transform to_local_;
   Vec3 position_;
+  Frame axis_;  ///< n along the axis of the cone
   Spectrum intensity_;
   float cutoff_, beam_;  ///< radians
   float cos_cutoff_, cos_beam_, inverse_transition_, tan_cutoff_;
