@@ -36,7 +36,7 @@ constexpr Material from_narasimhan(std::string_view name, const Spectrum& sigma_
 }
 
 // clang-format off
-constexpr std::array kMaterials{
+const std::array kMaterials{
     from_wang("S1 Bumpy Sphere", {0.955f, 0.677f, 0.457f}, {4.55f, 3.23f, 2.17f}, 0.9f, false, 1.5f),
     from_wang("S1 Wax", {0.980f, 0.962f, 0.750f}, {0.65f, 0.63f, 0.59f}, 0.8f, false, 1.446f),
     from_wang("S1 Milk", {0.999f, 0.999f, 0.999f}, {0.84f, 0.75f, 0.68f}, 0.7f, false, std::nullopt),
