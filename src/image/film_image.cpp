@@ -27,6 +27,18 @@ XyzMoments xyz_moments(const PixelSums& sums, double samples) {
   return moments;
 }
 
+/// The image with room for more channels after its own.
+Image with_channels(const Image& image, const std::vector<std::string>& more) {
+  std::vector<std::string> names = image.channel_names();
+  names.insert(names.end(), more.begin(), more.end());
+  Image result(image.width(), image.height(), std::move(names));
+  result.offset = image.offset;
+  result.full_size = image.full_size;
+  result.metadata = image.metadata;
+  for (size_t c = 0; c < image.channel_count(); ++c) std::ranges::copy(image.channel(c), result.channel(c).begin());
+  return result;
+}
+
 double sample_count(const Film& film) { return static_cast<double>(std::max<uint64_t>(film.samples(), 1)); }
 
 }  // namespace
@@ -42,6 +54,16 @@ Image film_to_image(const Film& film, bool alpha) {
     if (alpha) image.channel(size_t{3})[i] = static_cast<float>(film.pixel(i).alpha / n);
   }
   return image;
+}
+
+Image with_layers(const Image& image, const Film& film) {
+  const size_t first = image.channel_count();
+  Image result = with_channels(image, film.layer_names());
+  const double n = sample_count(film);
+  for (size_t c = 0; c < film.layer_names().size(); ++c)
+    for (size_t i = 0; i < film.pixel_count(); ++i)
+      result.channel(first + c)[i] = static_cast<float>(film.layers(i)[c] / n);
+  return result;
 }
 
 Image variance_image(const Film& film) {
@@ -62,15 +84,11 @@ Image variance_image(const Film& film) {
 }
 
 Image with_moment_layers(const Image& image, const Film& film, const std::string& name) {
-  std::vector<std::string> names = image.channel_names();
-  const size_t first = names.size();
+  std::vector<std::string> names;
   for (const std::string& prefix : {name, "m2_" + name})
     for (const char* component : {".X", ".Y", ".Z"}) names.push_back(prefix + component);
-  Image result(image.width(), image.height(), std::move(names));
-  result.offset = image.offset;
-  result.full_size = image.full_size;
-  result.metadata = image.metadata;
-  for (size_t c = 0; c < first; ++c) std::ranges::copy(image.channel(c), result.channel(c).begin());
+  const size_t first = image.channel_count();
+  Image result = with_channels(image, names);
   const double n = sample_count(film);
   for (size_t i = 0; i < film.pixel_count(); ++i) {
     const XyzMoments moments = xyz_moments(film.pixel(i), n);

@@ -9,6 +9,9 @@ namespace turbid {
 /// The mean radiance per pixel as R, G, B, and with `alpha` also A (radiance is multiplied by it already).
 Image film_to_image(const Film& film, bool alpha);
 
+/// The image followed by the means of the film's layers, as channels of their names.
+Image with_layers(const Image& image, const Film& film);
+
 /// The unbiased variance of one sample of each pixel, (n E[x^2] - n E[x]^2)/(n - 1), 0 for n = 1. As in the references
 /// of Mitsuba's render tests it is the variance of the CIE XYZ components, carried in channels R, G, B by the linear
 /// map from XYZ to RGB; to_xyz() of z_test.h undoes that.

@@ -25,6 +25,13 @@ class StopFlag {
   std::atomic<bool> stop_{false};
 };
 
+/// The light of scattering orders [min_order, max_order] goes to three channels of the film's layers, from `channel`
+/// on.
+struct OrderLayer {
+  int min_order, max_order;  ///< below kOrderClasses, whose last one stands for all higher orders too
+  size_t channel;
+};
+
 /// Counters that integrators keep while rendering, summed over threads: rays cast, samples dropped ... by name.
 using Counters = std::map<std::string, uint64_t>;
 
@@ -40,6 +47,13 @@ class Integrator {
   /// Adds one pass to `film` (cleared, of the scene's crop size). Returns false when stopped half-way: the caller then
   /// throws the film away.
   virtual bool render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) = 0;
+
+  /// Names of the channels that render_pass adds to the film's layers.
+  virtual std::vector<std::string> layer_names() const { return {}; }
+  /// Asks for the light of some scattering orders in layers of their own, which others name. False: it cannot tell.
+  virtual bool split_orders(const std::vector<OrderLayer>& /*layers*/) { return false; }
+  /// False: media are ignored.
+  virtual bool sees_media() const { return true; }
 
   /// Counters since construction.
   virtual Counters counters() const { return {}; }

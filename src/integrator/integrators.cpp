@@ -1,5 +1,6 @@
 #include "integrator/integrators.h"
 
+#include "integrator/aov.h"
 #include "integrator/path_tracer.h"
 
 namespace turbid {
@@ -84,8 +85,9 @@ Table make_table() {
              setup.second_moment = true;
              return setup;
            }},
+          aov_row(),
       },
-      {"aov", "stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective",
+      {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective",
        "ptracer"});
 }
 

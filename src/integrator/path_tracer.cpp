@@ -39,7 +39,9 @@ class Walk {
       }
       if (!arrive_at_surface(hit)) break;
     }
-    return {radiance_, alpha_};
+    PixelSample sample{radiance_, alpha_};
+    std::copy(std::begin(by_order_), std::end(by_order_), sample.by_order);
+    return sample;
   }
 
  private:
@@ -259,7 +261,12 @@ class Walk {
   bool order_counts() const { return order_ >= settings_.min_scattering && order_ <= settings_.max_scattering; }
 
   void add(const Spectrum& value) {
-    if (order_counts()) radiance_ += throughput_ * value;
+    if (order_counts()) gather(throughput_ * value);
+  }
+
+  void gather(const Spectrum& light) {
+    radiance_ += light;
+    by_order_[std::min(order_, kOrderClasses - 1)] += light;
   }
 
   float hit_weight(float light_pdf_w) const {
@@ -327,7 +334,7 @@ class Walk {
     }
     if (passage.prob == 0) return;
     const float weight = light->delta ? 1 : mis_weight(choice.prob * light->pdf_w, scattered.pdf_w * passage.prob);
-    radiance_ += towards * passage.transmittance * light->weight * (weight / choice.prob);
+    gather(towards * passage.transmittance * light->weight * (weight / choice.prob));
   }
 
   /// From `origin` to just before the light.
@@ -347,6 +354,7 @@ class Walk {
 
   Ray ray_;
   Spectrum throughput_{1.0f}, radiance_{0.0f};
+  Spectrum by_order_[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
   float alpha_ = 0;
   int depth_ = 0;        ///< edges behind us
   int order_ = 0;        ///< collisions in media behind us

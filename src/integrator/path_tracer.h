@@ -27,6 +27,8 @@ class PathTracer : public SamplingIntegrator {
 
   PathTracer(Kind kind, const PathSettings& settings) : kind_(kind), settings_(settings) {}
 
+  bool sees_media() const override { return kind_ == Kind::kVolumes; }
+
  protected:
   PixelSample sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                               SampleCounters& counters) const override;

@@ -4,6 +4,7 @@
 
 #include "core/log.h"
 #include "core/parallel.h"
+#include "integrator/camera_sample.h"
 
 namespace turbid {
 namespace {
@@ -30,6 +31,11 @@ Counters SamplingIntegrator::counters() const {
           {"free_flights", totals_.free_flights},     {"dropped_samples", totals_.dropped_samples}};
 }
 
+bool SamplingIntegrator::split_orders(const std::vector<OrderLayer>& layers) {
+  order_layers_ = layers;
+  return true;
+}
+
 bool SamplingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) {
   const Vec2i size = film.size();
   const int columns = (size.x + kTileSize - 1) / kTileSize, rows = (size.y + kTileSize - 1) / kTileSize;
@@ -49,31 +55,28 @@ bool SamplingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film&
 
 void SamplingIntegrator::render_tile(const Scene& scene, const Pass& pass, const Vec2i& from, const Vec2i& to,
                                      Film& film, SampleCounters& counters, const StopFlag& stop) const {
-  const FilmSettings& settings = scene.film();
-  const Sensor& sensor = scene.sensor();
-  const bool needs_aperture = sensor.needs_aperture();
-  const Vec2 scale{1 / static_cast<float>(settings.size.x), 1 / static_cast<float>(settings.size.y)};
   Sampler sampler(scene.sampler(), pass.seed);
   for (int y = from.y; y < to.y; ++y) {
     for (int x = from.x; x < to.x; ++x) {
       if (stop.requested()) return;
-      const Vec2i on_film = Vec2i(x, y) + settings.crop_offset;
-      const Vec2 center{static_cast<float>(on_film.x) + 0.5f, static_cast<float>(on_film.y) + 0.5f};
-      // Named by its place on the whole film, so that a crop shows the same samples as the full image.
-      const auto pixel_name = static_cast<uint64_t>(on_film.y) << 32 | static_cast<uint64_t>(on_film.x);
+      const Vec2i on_film = Vec2i(x, y) + scene.film().crop_offset;
+      const size_t pixel = static_cast<size_t>(y) * static_cast<size_t>(film.size().x) + static_cast<size_t>(x);
+      const std::span<double> layers = film.layers(pixel);
       PixelSums sums;
       for (uint64_t i = pass.first_sample; i < pass.first_sample + pass.sample_count; ++i) {
-        sampler.start(pixel_name, i);
-        const Vec2 position = (center + settings.filter.sample(sampler.next_2d())) * scale;
-        const SensorRay camera = sensor.sample_ray(position, needs_aperture ? sampler.next_2d() : Vec2(0.5f));
+        const SensorRay camera = start_camera_sample(scene, on_film, i, sampler);
         const PixelSample sample = sample_radiance(scene, camera, sampler, counters);
         if (is_valid(sample.radiance)) {
           sums.add(sample);
+          for (const OrderLayer& layer : order_layers_)
+            for (int order = layer.min_order; order <= layer.max_order; ++order)
+              for (int c = 0; c < kChannels; ++c)
+                layers[layer.channel + static_cast<size_t>(c)] += static_cast<double>(sample.by_order[order][c]);
         } else if (++counters.dropped_samples == 1) {
           report_bad_sample(sample, on_film, pass, i);
         }
       }
-      film.pixel(static_cast<size_t>(y) * static_cast<size_t>(film.size().x) + static_cast<size_t>(x)).add(sums);
+      film.pixel(pixel).add(sums);
       counters.camera_samples += pass.sample_count;
     }
   }

@@ -22,6 +22,7 @@ class SamplingIntegrator : public Integrator {
  public:
   bool render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) override;
   Counters counters() const override;
+  bool split_orders(const std::vector<OrderLayer>& layers) override;
 
  protected:
   /// An estimate of the radiance that arrives along the sensor ray.
@@ -33,6 +34,7 @@ class SamplingIntegrator : public Integrator {
                    SampleCounters& counters, const StopFlag& stop) const;
   void report_bad_sample(const PixelSample& sample, const Vec2i& pixel, const Pass& pass, uint64_t index) const;
 
+  std::vector<OrderLayer> order_layers_;
   mutable std::mutex mutex_;
   SampleCounters totals_;
 };

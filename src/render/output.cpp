@@ -39,10 +39,11 @@ std::vector<std::string> write_output(const OutputSettings& settings, const Film
   if (settings.path.empty()) return written;
   Image image = film_to_image(film, settings.alpha);
   describe_image(image, settings, film, seconds);
+  const Image layered = with_layers(image, film);
   if (settings.moment_name.empty())
-    write_exr(settings.path, image);
+    write_exr(settings.path, layered);
   else
-    write_exr(settings.path, with_moment_layers(image, film, settings.moment_name));
+    write_exr(settings.path, with_moment_layers(layered, film, settings.moment_name));
   written.push_back(settings.path);
   if (settings.variance) {
     Image variance = variance_image(film);

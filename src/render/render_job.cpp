@@ -31,7 +31,10 @@ constexpr double kSavingShare = 0.05;
 class Job {
  public:
   Job(const RenderTask& task, const RenderOptions& options)
-      : task_(task), options_(options), plan_(task.size, options.budget, options.seed), total_(task.size) {}
+      : task_(task),
+        options_(options),
+        plan_(task.size, options.budget, options.seed),
+        total_(task.size, task.layers) {}
 
   RenderResult run() {
     check_output(options_.output);
@@ -80,7 +83,7 @@ class Job {
 
   bool belongs_here(const Checkpoint& checkpoint) const {
     return checkpoint.fingerprint == options_.fingerprint && checkpoint.film.size() == task_.size &&
-           checkpoint.film.samples() % plan_.samples_per_pass() == 0;
+           checkpoint.film.layer_names() == task_.layers && checkpoint.film.samples() % plan_.samples_per_pass() == 0;
   }
 
   void warn_about_old_checkpoint(const std::string& path) const {
@@ -100,7 +103,7 @@ class Job {
   void make_passes() {
     task_.prepare(options_.seed, stop_);
     statistics_.prepare_seconds = clock_.seconds();
-    Film film(task_.size);
+    Film film(task_.size, task_.layers);
     for (auto pass = plan_.next(total_.samples()); pass && !stop_.requested(); pass = plan_.next(total_.samples())) {
       film.clear();
       if (!task_.render_pass(*pass, film, stop_)) break;
@@ -218,7 +221,7 @@ RenderTask make_task(const Scene& scene, Integrator& integrator) {
           [&](const Pass& pass, Film& film, const StopFlag& stop) {
             return integrator.render_pass(scene, pass, film, stop);
           },
-          [&] { return integrator.counters(); }};
+          [&] { return integrator.counters(); }, integrator.layer_names()};
 }
 
 RenderResult render(const RenderTask& task, const RenderOptions& options) { return Job(task, options).run(); }

@@ -16,6 +16,7 @@ struct RenderTask {
   std::function<void(uint64_t seed, const StopFlag&)> prepare;
   std::function<bool(const Pass&, Film&, const StopFlag&)> render_pass;
   std::function<Counters()> counters;
+  std::vector<std::string> layers = {};  ///< names of the film's layers
 };
 
 /// Both must outlive the task.

@@ -28,6 +28,23 @@ TEST(Film, SumsPassesAndClears) {
   EXPECT_EQ(total.pixel(4).radiance[2], 0);
 }
 
+TEST(Film, SumsLayersToo) {
+  const std::vector<std::string> names = {"depth.T", "albedo.R"};
+  Film total({3, 2}, names), pass({3, 2}, names);
+  pass.layers(4)[1] = 3;
+  pass.add_samples(1);
+  total.add(pass);
+  pass.clear();
+  EXPECT_EQ(pass.layers(4)[1], 0);
+  pass.layers(4)[1] = 5;
+  pass.add_samples(1);
+  total.add(pass);
+  const Image image = with_layers(film_to_image(total, true), total);
+  EXPECT_EQ(image.channel_names(), (std::vector<std::string>{"R", "G", "B", "A", "depth.T", "albedo.R"}));
+  EXPECT_EQ(image.channel("albedo.R")[4], 4);
+  EXPECT_EQ(image.channel("depth.T")[4], 0);
+}
+
 TEST(Film, AnEmptyFilmGivesABlackImage) { EXPECT_EQ(film_to_image(Film({2, 2}), false).channel("R")[0], 0); }
 
 }  // namespace

@@ -16,7 +16,7 @@ using testing::TemporaryFolder;
 
 Film some_film() {
   testing::ToyTask toy{{9, 7}};
-  Film film(toy.size);
+  Film film(toy.size, testing::kLayers);
   toy.render_pass({3, 0, 5}, film, StopFlag());
   return film;
 }
@@ -40,6 +40,8 @@ TEST(Checkpoint, KeepsEveryBit) {
   EXPECT_EQ(back.fingerprint, 0x123456789abcdef0u);
   EXPECT_EQ(back.seconds, 12.5);
   EXPECT_TRUE(testing::same_bits(film, back.film));
+  EXPECT_EQ(back.film.layer_names(), testing::kLayers);
+  EXPECT_GT(back.film.layers(5)[1], 0);
   EXPECT_TRUE(looks_like_checkpoint(folder.file("a.ckpt")));
 }
 
@@ -72,7 +74,7 @@ TEST(Checkpoint, TellsForeignFilesAndVersionsApart) {
   std::string bytes = read_file(path);
   bytes[12] = 9;
   write_bytes(path, bytes);
-  EXPECT_EQ(reading_error(path), path + ": is a checkpoint of format 9, this program reads format 1");
+  EXPECT_EQ(reading_error(path), path + ": is a checkpoint of format 9, this program reads format 2");
   EXPECT_TRUE(looks_like_checkpoint(path));
 }
 

@@ -155,7 +155,7 @@ TEST_F(RenderJob, AShortLastPassIsMadeAgainWhole) {
 
 TEST_F(RenderJob, TheComparisonWouldNoticeAnotherGrouping) {
   // Sums made in other groups differ in the last bits: this is what the plan of passes avoids.
-  Film grouped({100, 80}), part({100, 80});
+  Film grouped({100, 80}, testing::kLayers), part({100, 80}, testing::kLayers);
   for (uint64_t first = 0; first < 200; first += 8) {
     part.clear();
     ToyTask().render_pass({11, first, 8}, part, StopFlag());

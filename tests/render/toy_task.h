@@ -9,6 +9,8 @@
 
 namespace turbid::testing {
 
+inline const std::vector<std::string> kLayers = {"half.X", "twice.Y"};
+
 /// A task whose samples are random numbers named by (seed, pixel, sample), as an integrator's are. `on_pass` is called
 /// in the middle of every pass with the number of passes begun before it.
 struct ToyTask {
@@ -22,7 +24,8 @@ struct ToyTask {
         [toy = *this](const Pass& pass, Film& film, const StopFlag& stop) { return toy.render_pass(pass, film, stop); },
         [] {
           return Counters{{"rays", 7}, {"dropped_samples", 1}};
-        }};
+        },
+        kLayers};
   }
 
   bool render_pass(const Pass& pass, Film& film, const StopFlag& stop) const {
@@ -36,6 +39,8 @@ struct ToyTask {
         sums.add({Spectrum(r * r * 1e3f, g, r * g), r});
       }
       film.pixel(i).add(sums);
+      film.layers(i)[0] += sums.alpha / 2;
+      film.layers(i)[1] += sums.alpha * 2;
     });
     if (stop.requested()) return false;
     film.add_samples(pass.sample_count);
@@ -44,7 +49,8 @@ struct ToyTask {
 };
 
 inline bool same_bits(const Film& a, const Film& b) {
-  return a.size() == b.size() && a.samples() == b.samples() &&
+  return a.size() == b.size() && a.samples() == b.samples() && a.layer_names() == b.layer_names() &&
+         std::memcmp(a.layers().data(), b.layers().data(), a.layers().size_bytes()) == 0 &&
          std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
 
