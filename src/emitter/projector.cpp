@@ -46,17 +46,6 @@ std::optional<DirectLightSample> Projector::sample_direct(const Vec3& from, cons
 }
 
 std::optional<EmissionSample> Projector::sample_emission(const Vec2&, const Vec2& u_direction) const {
-  const Vec3 local = normalize(Vec3((1 - 2 * u_direction.x) * half_width_, (1 - 2 * u_direction.y) * half_height_, 1));
-  const Vec3 direction = normalize(to_world_.vector(local));
-  const float pdf_w = 1 / (4 * half_width_ * half_height_ * local.z * sqr(local.z));
-  return EmissionSample{.origin = position_,
-                        .direction = direction,
-                        .weight = intensity(direction) / pdf_w,
-                        .pdf_w = pdf_w,
-                        .ng = Vec3(0)};
-}
-
-std::optional<EmissionSample> Projector::sample_emission(const Vec2&, const Vec2& u_direction) const {
   SurfacePoint point;
   point.p = position_;
   point.uv = u_direction;

@@ -4,9 +4,12 @@
 #include "emitter/directional_light.h"
 #include "emitter/environment_map.h"
 #include "emitter/point_light.h"
+#include "emitter/projector.h"
 #include "emitter/spot_light.h"
 #include "image/image_file.h"
 #include "scene/builder.h"
+#include "scene/fov_reader.h"
+#include "texture/bitmap.h"
 
 namespace turbid {
 namespace {
@@ -42,6 +45,25 @@ EmitterPtr make_spot(const Properties& p, Builder& b, const EmitterPlace& place)
   if (beam > cutoff) p.refuse("beam_width", "is larger than 'cutoff_angle'");
   return std::make_shared<SpotLight>(p.transform("to_world"), b.spectrum(p, "intensity"), cutoff, beam,
                                      b.texture(p, "texture"));
+}
+
+EmitterPtr make_projector(const Properties& p, Builder& b, const EmitterPlace& place) {
+  refuse_shape(p, place);
+  const auto irradiance = b.texture(p, "irradiance");
+  const auto picture = std::dynamic_pointer_cast<const BitmapTexture>(irradiance);
+  const double aspect = picture ? static_cast<double>(picture->width()) / picture->height() : 1;
+  return std::make_shared<Projector>(p.transform("to_world"), irradiance, p.number("scale"),
+                                     read_horizontal_fov(p, aspect), aspect);
+}
+
+std::vector<Parameter> projector_parameters() {
+  std::vector<Parameter> result = {
+      {"irradiance", kTexture, kRequired, "the picture: over pi, W/m^2 on a plane across the axis at distance 1",
+       kNonNegative},
+      {"scale", kFloat, "1", "factor", kNonNegative}};
+  result.insert(result.end(), field_of_view_parameters().begin(), field_of_view_parameters().end());
+  result.insert(result.end(), {kToWorld, kInMedium, kWeight});
+  return result;
 }
 
 EmitterPtr make_directional(const Properties& p, Builder& b, const EmitterPlace& place) {
@@ -104,6 +126,10 @@ const EmitterTable& emitter_table() {
                        kInMedium,
                        kWeight},
         .make = make_spot},
+       {.name = "projector",
+        .summary = "A point that throws a picture along its +z axis.",
+        .parameters = projector_parameters(),
+        .make = make_projector},
        {.name = "directional",
         .summary = "Parallel light from infinity.",
         .parameters = {{"irradiance", kSpectrum, "1", "W/m^2 across the direction", kNonNegative},
@@ -127,7 +153,7 @@ const EmitterTable& emitter_table() {
                        kToWorld,
                        kWeight},
         .make = make_environment}},
-      {"projector", "sky", "sun", "sunsky", "directionalarea", "volumelight", "timed_sunsky"});
+      {"sky", "sun", "sunsky", "directionalarea", "volumelight", "timed_sunsky"});
   return table;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scene/attribute_check.h"
 #include "scene/scene_loader.h"
 #include "sensor/perspective.h"
 #include "surface/diffuse.h"
@@ -75,6 +76,7 @@ Object SceneLoader::assemble(const SceneNode& node, std::shared_ptr<const Shape>
   Object object;
   object.id = node.id;
   object.bsdf = builder_.bsdf(p, "bsdf");
+  check_mesh_attributes(node, *shape);
   object.interior = builder_.medium(p, "interior");
   object.exterior = builder_.medium(p, "exterior");
   object.bounds_media = object.interior || object.exterior;

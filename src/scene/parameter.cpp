@@ -30,6 +30,8 @@ const char* to_string(ParameterType type) {
       return "transform";
     case ParameterType::kFloatOrString:
       return "float or string";
+    case ParameterType::kFloatOrVector:
+      return "float or vector";
     case ParameterType::kBsdf:
       return "bsdf";
     case ParameterType::kEmitter:

@@ -22,6 +22,7 @@ enum class ParameterType {
   kIor,       ///< index of refraction: a number, or the name of a material
   kTransform,
   kFloatOrString,
+  kFloatOrVector,  ///< one plain number or three, as a spectrum
   // Plugins inside the plugin; their name in the file does not matter unless several parameters have the same type.
   kBsdf,
   kEmitter,
@@ -68,6 +69,7 @@ struct Parameter {
   std::string meaning;                    ///< one line, with the unit
   Range range = {};                       ///< of numbers
   std::vector<std::string> choices = {};  ///< of strings; empty: any
+  bool any_name = false;                  ///< of kTexture: takes a texture whatever its name is in the file
 };
 
 }  // namespace turbid

@@ -37,6 +37,8 @@ bool fits(ParameterType type, const Value& value) {
     case ParameterType::kSpectrum:
     case ParameterType::kTexture:
       return number || std::holds_alternative<Spectrum>(value);
+    case ParameterType::kFloatOrVector:
+      return number || std::holds_alternative<Spectrum>(value) || std::holds_alternative<Imath::V3d>(value);
     case ParameterType::kIor:
     case ParameterType::kFloatOrString:
       return number || text;
@@ -61,6 +63,7 @@ Value read_as(ParameterType type, const std::string& text, const SourceLocation&
       return read_vector(text, where);
     case ParameterType::kSpectrum:
     case ParameterType::kTexture:
+    case ParameterType::kFloatOrVector:
       return read_rgb(text, where);
     case ParameterType::kTransform:
       if (text == "identity") return Transform();
@@ -82,6 +85,8 @@ double to_double(const Value& value) {
 
 Spectrum to_spectrum(const Value& value) {
   if (const auto* spectrum = std::get_if<Spectrum>(&value)) return *spectrum;
+  if (const auto* v = std::get_if<Imath::V3d>(&value))
+    return {static_cast<float>(v->x), static_cast<float>(v->y), static_cast<float>(v->z)};
   return Spectrum(static_cast<float>(to_double(value)));
 }
 
@@ -141,14 +146,16 @@ const Parameter* Properties::parameter_for(const Child& child) const {
   const ParameterType type = type_of_children(child.node->category);
   const bool value = child.node->category == Category::kTexture || child.node->category == Category::kVolume;
   size_t same_type = 0;
-  const Parameter* free = nullptr;
+  const Parameter *free = nullptr, *nameless = nullptr;
   for (const Parameter& known : *list_) {
     const bool matches = value ? !is_plugin(known.type) : known.type == type;
     if (matches && known.name == child.name && !given_.contains(known.name)) return &known;
+    if (value && known.any_name && !given_.contains(known.name)) nameless = &known;
     if (known.type != type) continue;
     ++same_type;
     if (!free && !given_.contains(known.name)) free = &known;
   }
+  if (nameless) return nameless;
   const bool by_name = value || (type == ParameterType::kMedium && same_type > 1);
   const bool plugin_category = type != ParameterType::kTexture;
   return by_name || !plugin_category ? nullptr : free;

@@ -1,7 +1,6 @@
 // Sensors: where pictures are taken from.
 #include "scene/builder.h"
-#include "scene/values.h"
-#include "sensor/field_of_view.h"
+#include "scene/fov_reader.h"
 #include "sensor/orthographic.h"
 #include "sensor/perspective.h"
 #include "sensor/thin_lens.h"
@@ -22,14 +21,6 @@ const Parameters kCommon = {{"to_world", kTransform, "identity", "from the senso
                             {"focus_distance", kFloat, kOptional, "of the sharp plane, along the axis", kPositive},
                             {"shutter_open", kFloat, "0", "accepted; nothing moves"},
                             {"shutter_close", kFloat, "0", "accepted; nothing moves"}};
-const Parameters kFieldOfView = {
-    {"fov", kFloat, kOptional, "field of view, degrees", {.min = 0, .max = 180, .open_min = true, .open_max = true}},
-    {.name = "fov_axis",
-     .type = kString,
-     .default_text = "x",
-     .meaning = "of the film, along which fov is measured",
-     .choices = {"x", "y", "diagonal", "smaller", "larger"}},
-    {"focal_length", kString, "50mm", "instead of fov: before 35 mm film"}};
 const Parameters kPrincipalPoint = {
     {"principal_point_offset_x", kFloat, "0", "of the optical axis from the film's middle, in widths"},
     {"principal_point_offset_y", kFloat, "0", "of the optical axis from the film's middle, in heights"}};
@@ -49,36 +40,16 @@ ClipRange clip_of(const Properties& p) {
   return clip;
 }
 
-FovAxis axis_of(const std::string& name) {
-  if (name == "y") return FovAxis::kY;
-  if (name == "diagonal") return FovAxis::kDiagonal;
-  if (name == "smaller") return FovAxis::kSmaller;
-  return name == "larger" ? FovAxis::kLarger : FovAxis::kX;
-}
-
-/// Horizontal field of view, degrees.
-double fov_of(const Properties& p, const FilmSettings& film) {
-  if (p.has("fov")) {
-    if (p.has("focal_length")) p.refuse("focal_length", "cannot stand beside 'fov'");
-    return horizontal_fov(static_cast<double>(p.number("fov")), axis_of(p.string("fov_axis")), aspect_of(film));
-  }
-  std::string length = p.string("focal_length");
-  if (length.ends_with("mm")) length.resize(length.size() - 2);
-  const double millimetres = read_number(length, p.where("focal_length"));
-  if (!(millimetres > 0)) p.refuse("focal_length", "must be above 0");
-  return horizontal_fov(diagonal_fov_of_focal_length(millimetres), FovAxis::kDiagonal, aspect_of(film));
-}
-
 std::shared_ptr<const Sensor> make_perspective(const Properties& p, Builder&, const FilmSettings& film) {
   const Vec2 offset(p.number("principal_point_offset_x"), p.number("principal_point_offset_y"));
-  return std::make_shared<PerspectiveSensor>(p.transform("to_world"), fov_of(p, film), aspect_of(film), clip_of(p),
-                                             offset);
+  return std::make_shared<PerspectiveSensor>(p.transform("to_world"), read_horizontal_fov(p, aspect_of(film)),
+                                             aspect_of(film), clip_of(p), offset);
 }
 
 std::shared_ptr<const Sensor> make_thin_lens(const Properties& p, Builder&, const FilmSettings& film) {
   const float focus = p.number(p.has("focus_distance") ? "focus_distance" : "far_clip");
-  return std::make_shared<ThinLensSensor>(p.transform("to_world"), fov_of(p, film), aspect_of(film),
-                                          p.number("aperture_radius"), focus, clip_of(p));
+  return std::make_shared<ThinLensSensor>(p.transform("to_world"), read_horizontal_fov(p, aspect_of(film)),
+                                          aspect_of(film), p.number("aperture_radius"), focus, clip_of(p));
 }
 
 std::shared_ptr<const Sensor> make_orthographic(const Properties& p, Builder&, const FilmSettings& film) {
@@ -92,12 +63,13 @@ const SensorTable& sensor_table() {
       Category::kSensor,
       {{.name = "perspective",
         .summary = "A pinhole.",
-        .parameters = join(join(kFieldOfView, kPrincipalPoint), kCommon),
+        .parameters = join(join(field_of_view_parameters(), kPrincipalPoint), kCommon),
         .make = make_perspective},
        {.name = "thinlens",
         .summary = "A lens with an aperture: what lies at focus_distance is sharp.",
-        .parameters =
-            join(join({{"aperture_radius", kFloat, kRequired, "scene units", kNonNegative}}, kFieldOfView), kCommon),
+        .parameters = join(
+            join({{"aperture_radius", kFloat, kRequired, "scene units", kNonNegative}}, field_of_view_parameters()),
+            kCommon),
         .make = make_thin_lens},
        {.name = "orthographic",
         .summary = "Parallel rays; to_world's scale sets the size of the view, [-1, 1] across.",

@@ -5,6 +5,7 @@
 #include "texture/bitmap.h"
 #include "texture/checkerboard.h"
 #include "texture/constant.h"
+#include "texture/mesh_attribute.h"
 
 namespace turbid {
 namespace {
@@ -47,6 +48,10 @@ const TextureTable& texture_table() {
                        {"unbounded", kBoolean, "false",
                         "accepted; values above 1 are refused where they make no sense"}},
         .make = [](const Properties& p, Builder& b) { return constant(b.spectrum(p, "color")); }},
+       {.name = "rawconstant",
+        .summary = "The same plain numbers everywhere, for normal maps and the like.",
+        .parameters = {{"value", kFloatOrVector, kRequired, "one number or three"}},
+        .make = [](const Properties& p, Builder&) { return constant(p.spectrum("value")); }},
        {.name = "d65",
         .aliases = {"srgb_d65"},
         .summary = "White light of standard illuminant D65: white in RGB.",
@@ -80,8 +85,14 @@ const TextureTable& texture_table() {
             [](const Properties& p, Builder& b) {
               return std::make_shared<CheckerboardTexture>(b.texture(p, "color0"), b.texture(p, "color1"),
                                                            UvTransform(p.transform("to_uv")));
-            }}},
-      {"mesh_attribute", "volume", "regular", "irregular", "blackbody", "rawconstant", "sunsky", "normalmap"});
+            }},
+       {.name = "mesh_attribute",
+        .summary = "Numbers that a mesh carries on its vertices or faces.",
+        .parameters = {{"name", kString, kRequired, "of the attribute: vertex_color, face_weight ..."},
+                       {"scale", kFloat, "1", "factor"}},
+        .make = [](const Properties& p,
+                   Builder&) { return std::make_shared<MeshAttributeTexture>(p.string("name"), p.number("scale")); }}},
+      {"volume", "regular", "irregular", "blackbody", "sunsky"});
   return table;
 }
 

@@ -196,7 +196,7 @@ TEST(Catalog, DefaultsAreValidValues) {
   }
 }
 
-/// Mitsuba's own test scenes, where they are at hand: all but one use only what exists.
+/// Mitsuba's own test scenes, where they are at hand.
 TEST(Loader, ReadsThePeersScenes) {
   const std::filesystem::path folder = peer_scenes();
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << peer_scenes_absent();
@@ -204,11 +204,7 @@ TEST(Loader, ReadsThePeersScenes) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with("test_") || entry.path().extension() != ".xml") continue;
     const std::string text = complaint([&] { load_scene(entry.path()); });
-    const bool not_yet = name.starts_with("test_various_emitters");
-    if (not_yet)
-      EXPECT_NE(text.find("is not supported"), std::string::npos) << name << ": " << text;
-    else
-      EXPECT_EQ(text, "") << name;
+    EXPECT_EQ(text, "") << name;
   }
 }
 
