@@ -79,7 +79,7 @@ TEST(World, IsOne) {
 
 TEST(Priority, IsAnInteger) {
   EXPECT_EQ(load_complaint("<shape type=\"cube\"><float name=\"priority\" value=\"1.5\"/></shape>"),
-            "3 test.xml:2:45: 'priority' of shape 'cube' expects an integer, found a float");
+            "3 test.xml:2:50: 'priority' of shape 'cube' expects an integer, found a float");
 }
 
 }  // namespace
