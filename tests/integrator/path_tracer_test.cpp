@@ -49,36 +49,39 @@ struct TwinCase {
 };
 
 /// `volpath` against its plain twin: equal means; and, at equal sample counts, no more variance than the twin has.
-class Twins : public ::testing::TestWithParam<TwinCase> {};
-
-TEST_P(Twins, AgreeAndTheFastOneIsNotNoisier) {
-  const TwinCase& test = GetParam();
+void expect_twins_agree(const TwinCase& test, uint32_t times) {
   LoadedScene loaded = load_scene_from_string(ball_scene(test.content), "twin scene");
   const IntegratorSetup setup = make_integrator(loaded.integrator);
   const Scene scene(std::move(loaded.parts));
   PlainTracer plain;
-  const ImageMean fast = mean_of(render_with(scene, *setup.integrator, test.samples, 1));
-  const ImageMean slow = mean_of(render_with(scene, plain, test.samples, 2));
+  const ImageMean fast = mean_of(render_with(scene, *setup.integrator, times * test.samples, 1));
+  const ImageMean slow = mean_of(render_with(scene, plain, times * test.samples, 2));
   for (int c = 0; c < kChannels; ++c)
     EXPECT_LT(z_score(fast.mean[c], fast.error[c], slow.mean[c], slow.error[c]), 3.5)
         << "channel " << c << ": " << fast.mean[c] << " against " << slow.mean[c];
   EXPECT_LT(fast.variance, 1.03 * slow.variance);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Twins,
-                         ::testing::Values(TwinCase{"clear_sphere", kSky + ball(kGlass, kClear), 1000},
-                                           TwinCase{"wax_sphere", kLamp + ball(kWaxBoundary, kWax), 1500},
-                                           TwinCase{"chromatic_null", kSky + kLamp + ball(kNull, kChromatic), 1000},
-                                           TwinCase{"chromatic_glass", kSky + ball(kGlass, kChromatic), 3000},
-                                           TwinCase{"light_inside", ball(kNull, kClear) + R"(
-                        <shape type="sphere"><float name="radius" value="0.3"/>
-                          <emitter type="area"><rgb name="radiance" value="5"/></emitter></shape>)",
-                                                    1000},
-                                           TwinCase{"light_inside_glass", ball(kGlass, kChromatic) + R"(
-                        <shape type="sphere"><float name="radius" value="0.3"/>
-                          <emitter type="area"><rgb name="radiance" value="5"/></emitter></shape>)",
-                                                    1000}),
-                         [](const auto& instance) { return instance.param.name; });
+std::vector<TwinCase> twin_cases() {
+  const std::string lamp_inside = R"(<shape type="sphere"><float name="radius" value="0.3"/>
+    <emitter type="area"><rgb name="radiance" value="5"/></emitter></shape>)";
+  return {{"clear_sphere", kSky + ball(kGlass, kClear), 1000},
+          {"wax_sphere", kLamp + ball(kWaxBoundary, kWax), 1500},
+          {"chromatic_null", kSky + kLamp + ball(kNull, kChromatic), 1000},
+          {"chromatic_glass", kSky + ball(kGlass, kChromatic), 3000},
+          {"light_inside", ball(kNull, kClear) + lamp_inside, 1000},
+          {"light_inside_glass", ball(kGlass, kChromatic) + lamp_inside, 1000}};
+}
+
+std::string name_of(const ::testing::TestParamInfo<TwinCase>& instance) { return instance.param.name; }
+
+class Twins : public ::testing::TestWithParam<TwinCase> {};
+TEST_P(Twins, AgreeAndTheFastOneIsNotNoisier) { expect_twins_agree(GetParam(), 1); }
+INSTANTIATE_TEST_SUITE_P(Scenes, Twins, ::testing::ValuesIn(twin_cases()), name_of);
+
+class TwinsAtLength : public ::testing::TestWithParam<TwinCase> {};
+TEST_P(TwinsAtLength, AgreeAndTheFastOneIsNotNoisier) { expect_twins_agree(GetParam(), 30); }
+INSTANTIATE_TEST_SUITE_P(Slow, TwinsAtLength, ::testing::ValuesIn(twin_cases()), name_of);
 
 // The harness must notice a light that is 3 % too bright.
 TEST(TwinsHarness, NoticesAPlantedError) {
@@ -103,6 +106,25 @@ TEST(PathTracer, CameraInTheCentreOfAnAbsorbingSphereSeesTheSkyThroughIt) {
     EXPECT_NEAR(mean.mean[0], std::exp(-0.5), 1e-4);
     EXPECT_NEAR(mean.mean[1], std::exp(-1.0), 1e-4);
     EXPECT_NEAR(mean.mean[2], std::exp(-2.0), 1e-4);
+  }
+}
+
+// No light leaks through a boundary: inside a closed shell nothing of a bright sky is seen, however often light
+// bounces.
+TEST(PathTracer, ClosedShellsLetNoLightIn) {
+  const std::string sky = R"(<emitter type="constant"><rgb name="radiance" value="1000"/></emitter>)";
+  const std::string fog = R"(<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="2"/>
+    <rgb name="albedo" value="0.95"/></medium><bsdf type="diffuse"><rgb name="reflectance" value="0.9"/></bsdf>)";
+  const std::string shells[] = {
+      R"(<shape type="sphere"><float name="radius" value="9"/>)", R"(<shape type="cube">
+         <transform name="to_world"><rotate x="1" y="2" z="3" angle="37"/><scale value="9"/></transform>)",
+      R"(<shape type="generated"><string name="kind" value="bumpy_sphere"/><float name="radius" value="9"/>
+         <float name="amplitude" value="0.2"/><float name="frequency" value="5"/><integer name="subdivisions" value="5"/>)",
+      R"(<shape type="generated"><string name="kind" value="torus"/><float name="major_radius" value="4"/>
+         <float name="minor_radius" value="1.5"/>)"};
+  for (const std::string& shell : shells) {
+    const Film film = render_text(ball_scene(sky + shell + fog + "</shape>"), 400);
+    EXPECT_EQ(mean_of(film).grey(), 0) << shell;
   }
 }
 
