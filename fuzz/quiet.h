@@ -2,7 +2,7 @@
 #include "core/log.h"
 
 /// Warnings would only slow the fuzzer down.
-extern "C" inline int LLVMFuzzerInitialize(int*, char***) {
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
   turbid::set_log_level(turbid::LogLevel::kQuiet);
   return 0;
 }

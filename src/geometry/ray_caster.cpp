@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace turbid {
@@ -174,6 +175,10 @@ Hit RayCaster::placed(const Hit& local, uint32_t first_member) const {
   hit.shape += first_member;
   hit.ng = static_cast<const ShapeInstance&>(*shapes_[hit.shape]).placement().to_world().normal(local.ng);
   return hit;
+}
+
+bool RayCaster::has_cheap_clearance(uint32_t index) const {
+  return std::any_of(spheres_.begin(), spheres_.end(), [&](const LoneSphere& lone) { return lone.shape == index; });
 }
 
 float RayCaster::tree_clearance(const Vec3& p, float limit) const {

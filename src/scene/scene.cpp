@@ -105,10 +105,13 @@ Surroundings Scene::survey(const Medium* medium) const {
   if (medium == parts_.world_medium.get()) result.bounded = false;
   Bounds3 extent;
   float thinnest = kInfinity;
-  for (const Object& object : parts_.objects) {
+  bool cheap_clearance = true;
+  for (size_t i = 0; i < parts_.objects.size(); ++i) {
+    const Object& object = parts_.objects[i];
     if (object.exterior.get() == medium) result.bounded = false;
     if (object.interior.get() != medium) continue;
     if (!object.shape->is_closed()) result.bounded = false;
+    if (!rays_->has_cheap_clearance(static_cast<uint32_t>(i))) cheap_clearance = false;
     if (object.bsdf->flags() & lobe::kNull) result.blind = false;
     const Bounds3 box = object.shape->bounds();
     const Vec3 size = box.size();
@@ -121,7 +124,7 @@ Surroundings Scene::survey(const Medium* medium) const {
   // With priorities a medium may also end where another one begins.
   if (!result.bounded || lit_inside || has_priorities_) result.blind = false;
   constexpr float kDenseThickness = 8;  // mean free paths across
-  result.dense = result.bounded && thinnest > kDenseThickness * result.mean_free_path;
+  result.dense = result.bounded && cheap_clearance && thinnest > kDenseThickness * result.mean_free_path;
   return result;
 }
 

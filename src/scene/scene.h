@@ -74,7 +74,8 @@ struct Surroundings {
   /// No straight line that starts inside can reach a light: every boundary bends or blocks light and no light touches
   /// the inside. Next-event estimation from there would always be zero.
   bool blind = false;
-  /// Many mean free paths thick, so that most flights end far from any boundary.
+  /// Many mean free paths thick, so that most flights end far from any boundary, and inside of spheres, whose distance
+  /// is cheap to ask for (RayCaster::has_cheap_clearance).
   bool dense = false;
   float mean_free_path = 0;  ///< the shortest of any channel
 };

@@ -149,6 +149,14 @@ TEST(RayCaster, ClearanceIsBelowTheDistanceAndClose) {
   }
 }
 
+TEST(RayCaster, ClearanceIsCheapNearLoneSpheresOnly) {
+  std::vector<std::shared_ptr<const Shape>> shapes{std::make_shared<Sphere>(Vec3(0), 1.0f), mesh_shape(make_cube())};
+  EXPECT_TRUE(RayCaster(shapes).has_cheap_clearance(0));
+  EXPECT_FALSE(RayCaster(shapes).has_cheap_clearance(1));
+  for (int i = 0; i < 4; ++i) shapes.push_back(shapes[0]);  // too many: they go into the hierarchy
+  EXPECT_FALSE(RayCaster(shapes).has_cheap_clearance(0));
+}
+
 TEST(RayCaster, DistanceBoundsHoldAgainstPointsOfTheSurface) {
   const std::vector<std::shared_ptr<const Shape>> shapes{
       mesh_shape(make_rectangle()), std::make_shared<Disk>(Transform::scale(2, 2, 2)),
