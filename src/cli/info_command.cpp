@@ -7,9 +7,10 @@
 
 #include "cli/command.h"
 #include "cli/scene_choice.h"
-#include "integrator/integrators.h"
+#include "integrator/advice.h"
 #include "render/render_job.h"
 #include "render/statistics.h"
+#include "scene/scene_check.h"
 
 namespace turbid {
 namespace {
@@ -73,8 +74,32 @@ void print_medium(const Scene& scene, const Surroundings& surroundings) {
     albedo[c] = sigma_t[c] > 0 ? sigma_s[c] / sigma_t[c] : 0;
   }
   fmt::print(kLine, "medium", places_of(scene, &m));
-  fmt::print("{:<12}   mean free path {} scene units, albedo {}, mean cosine {:.3g}\n", "", rgb(path), rgb(albedo),
+  const float extent = extent_of(scene, &m);
+  fmt::print("{:<12}   mean free path {} scene units{}, albedo {}, mean cosine {:.3g}\n", "", rgb(path),
+             extent > 0 ? fmt::format(", {} of its extent ({:.4g})", rgb(path / extent), extent) : "", rgb(albedo),
              m.phase().mean_cosine());
+}
+
+void print_lights(const Scene& scene, const SceneNode& root) {
+  size_t inside = 0;
+  for (const Emitter* emitter : scene.emitters())
+    if (!emitter->is_at_infinity() && scene.medium_at(emitter->bounds().center())) ++inside;
+  const std::string where = inside > 0 ? fmt::format("; {} inside media", inside) : "";
+  fmt::print(kLine, "lights", describe_counts(count_types(root, Category::kEmitter)) + where);
+}
+
+/// Which integrator suits, and what else a colleague would say.
+void print_advice(const Scene& scene, const IntegratorDescription& description, const Integrator& integrator) {
+  const Advice advice = suggest_integrator(scene);
+  fmt::print(kLine, "suited", fmt::format("{}: {}", advice.integrator, advice.why));
+  std::vector<std::string> warnings = advice.limits;
+  if (const std::string ignored = ignored_media(description, integrator, scene); !ignored.empty())
+    warnings.push_back(ignored);
+  for (std::string& finding : check_scene(scene)) warnings.push_back(std::move(finding));
+  if (scene.emitters().empty() &&
+      !std::any_of(scene.media().begin(), scene.media().end(), [](const Surroundings& s) { return s.medium->emits(); }))
+    warnings.emplace_back("nothing shines: the picture will be black");
+  for (const std::string& warning : warnings) fmt::print(kLine, "warning", warning);
 }
 
 void print_film(const Scene& scene) {
@@ -89,9 +114,10 @@ void print_film(const Scene& scene) {
 }
 
 /// What a render will need: the scene as it stands in memory now, and the films of total, pass and snapshot.
-void print_memory(const Scene& scene) {
+void print_memory(const Scene& scene, const Integrator& integrator) {
   const Vec2i size = image_size(scene.film());
-  const double films = 3.0 * sizeof(PixelSums) * size.x * size.y;
+  const double films =
+      3.0 * size.x * size.y * static_cast<double>(sizeof(PixelSums) + sizeof(double) * integrator.layer_names().size());
   fmt::print(kLine, "memory",
              fmt::format("about {} to render", memory(films + static_cast<double>(process_peak_memory()))));
 }
@@ -99,7 +125,7 @@ void print_memory(const Scene& scene) {
 int run_info(const SceneChoice& choice) {
   LoadedScene loaded = open_scene(choice);
   const SceneNode& root = *loaded.document->root;
-  make_integrator(loaded.integrator, loaded.document.get());  // its errors count too
+  const IntegratorSetup setup = make_integrator(loaded.integrator, loaded.document.get());
   const Scene scene(std::move(loaded.parts));
   size_t primitives = 0;
   for (const Object& object : scene.objects()) primitives += object.shape->primitive_count();
@@ -115,10 +141,11 @@ int run_info(const SceneChoice& choice) {
     fmt::print(kLine, "bounds",
                fmt::format("{} to {}, radius {:.4g}", point(bounds.min), point(bounds.max), scene.radius()));
   fmt::print(kLine, "bsdfs", describe_counts(count_types(root, Category::kBsdf)));
-  fmt::print(kLine, "lights", describe_counts(count_types(root, Category::kEmitter)));
+  print_lights(scene, root);
   if (scene.media().empty()) fmt::print(kLine, "media", "none");
   for (const Surroundings& surroundings : scene.media()) print_medium(scene, surroundings);
-  print_memory(scene);
+  print_memory(scene, *setup.integrator);
+  print_advice(scene, loaded.integrator, *setup.integrator);
   return kExitDone;
 }
 

@@ -10,7 +10,7 @@
 #include "core/log.h"
 #include "core/version.h"
 #include "image/atomic_file.h"
-#include "integrator/integrators.h"
+#include "integrator/advice.h"
 #include "render/progress.h"
 #include "render/render_job.h"
 #include "render/threads.h"
@@ -102,6 +102,8 @@ int run_render(const RenderWords& words, const CommandLine& line) {
   LoadedScene loaded = open_scene(words.scene);
   const IntegratorSetup setup = make_integrator(loaded.integrator, loaded.document.get());
   const Scene scene(std::move(loaded.parts));
+  if (const std::string ignored = ignored_media(loaded.integrator, *setup.integrator, scene); !ignored.empty())
+    log_warning(ignored);
   const RenderOptions options = render_options(words, loaded, scene, setup.second_moment, line);
   const RenderResult result = render(make_task(scene, *setup.integrator), options);
   report(result, options.output);

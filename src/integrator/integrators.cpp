@@ -51,6 +51,15 @@ IntegratorSetup make_path_tracer(PathTracer::Kind kind, const Properties& proper
   return {std::make_shared<PathTracer>(kind, path_settings(properties)), false};
 }
 
+/// Integrators of Mitsuba 0.6 that make the picture of volpath in another way. Whoever adds one takes it off the list.
+std::map<std::string, std::string> advice_for_old_names() {
+  std::map<std::string, std::string> advice;
+  for (const char* name :
+       {"bdpt", "photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "vpl", "adaptive", "irrcache"})
+    advice[name] = "'volpath' makes the same picture by path tracing (--integrator volpath)";
+  return advice;
+}
+
 Table make_table() {
   return Table(
       Category::kIntegrator,
@@ -88,7 +97,8 @@ Table make_table() {
           aov_row(),
       },
       {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective",
-       "ptracer"});
+       "ptracer"},
+      advice_for_old_names());
 }
 
 /// The chain of nodes from the outermost wrapper to the image integrator, as a copy that may be edited.

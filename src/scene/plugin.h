@@ -26,8 +26,10 @@ class PluginTable {
   using Row = Plugin<Product, Context...>;
 
   /// `unsupported`: names that Mitsuba 3 knows and turbid does not, so that a message can say so.
-  PluginTable(Category category, std::vector<Row> rows, std::vector<std::string> unsupported = {})
-      : category_(category), rows_(std::move(rows)), unsupported_(std::move(unsupported)) {}
+  /// `advice`: what to do without some of them, by name.
+  PluginTable(Category category, std::vector<Row> rows, std::vector<std::string> unsupported = {},
+              std::map<std::string, std::string> advice = {})
+      : category_(category), rows_(std::move(rows)), unsupported_(std::move(unsupported)), advice_(std::move(advice)) {}
 
   Category category() const { return category_; }
   const std::vector<Row>& rows() const { return rows_; }
@@ -56,6 +58,8 @@ class PluginTable {
     const std::string tag = to_string(category_);
     if (std::find(unsupported_.begin(), unsupported_.end(), node.type) != unsupported_.end())
       throw SceneError(node.where, tag + " '" + node.type + "' is not supported");
+    if (const auto advice = advice_.find(node.type); advice != advice_.end())
+      throw SceneError(node.where, tag + " '" + node.type + "' is not supported: " + advice->second);
     throw SceneError(node.where, "unknown " + tag + " '" + node.type + "'" + suggestion(node.type, names()));
   }
 
@@ -77,6 +81,7 @@ class PluginTable {
   Category category_;
   std::vector<Row> rows_;
   std::vector<std::string> unsupported_;
+  std::map<std::string, std::string> advice_;
 };
 
 }  // namespace turbid

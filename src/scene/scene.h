@@ -103,6 +103,7 @@ class Scene {
 
   /// Medium that the sensor stands in: declared by the file, else found by casting a ray (`medium_at`).
   const Medium* sensor_medium() const { return sensor_medium_; }
+  bool sensor_medium_declared() const { return parts_.sensor_medium_declared; }
   /// The medium around p: that on the near side of the first surface that bounds media, seen from p. Null: vacuum. In
   /// scenes with priorities that of media_at.
   const Medium* medium_at(const Vec3& p) const;

@@ -81,8 +81,10 @@ TEST_F(Usage, InfoDescribesAScene) {
   testing::write_small_scene(folder_.file("small.xml"));
   const Outcome outcome = run({"info", "small.xml", "--size", "64x32"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
-  for (const char* words : {"moment(volpath max_depth=6)", "64 x 32 pixels; 16 samples per pixel", "1 sphere", "cloud",
-                            "mean free path (0.5, 1, 2) scene units, albedo (0.9, 0.8, 0.7)", "1 constant", "memory"})
+  for (const char* words :
+       {"moment(volpath max_depth=6)", "64 x 32 pixels; 16 samples per pixel", "1 sphere", "cloud",
+        "mean free path (0.5, 1, 2) scene units, (0.25, 0.5, 1) of its extent (2), albedo (0.9, 0.8, 0.7)",
+        "1 constant", "memory"})
     EXPECT_NE(outcome.output.find(words), std::string::npos) << words << "\n" << outcome.output;
   EXPECT_EQ(run({"info"}).exit_code, 0);  // the default scene
 }

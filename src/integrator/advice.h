@@ -1,0 +1,23 @@
+#pragma once
+#include "integrator/integrators.h"
+
+namespace turbid {
+
+/// Which image integrator suits a scene.
+struct Advice {
+  std::string integrator;
+  std::string why;                  ///< as to a colleague
+  std::vector<std::string> limits;  ///< what even that one will not show
+};
+Advice suggest_integrator(const Scene& scene);
+
+/// The length of the longest side of the largest object that a medium fills, in scene units; 0 where it fills none.
+float extent_of(const Scene& scene, const Medium* medium);
+
+/// What to tell people whose integrator ignores the media that their scene has, by name; else empty.
+std::string ignored_media(const IntegratorDescription& description, const Integrator& integrator, const Scene& scene);
+
+/// The name of the innermost integrator, which makes the picture.
+std::string image_integrator(const IntegratorDescription& description);
+
+}  // namespace turbid
