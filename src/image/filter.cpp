@@ -10,14 +10,14 @@ namespace {
 constexpr double kGaussianCut = 4;  ///< standard deviations
 constexpr size_t kGaussianCells = 1024;
 
-/// Share of the mass of exp(-t^2/2) - exp(-kGaussianCut^2/2) on [-cut, cut] that lies in |t| > x.
-double gaussian_tail(double x) {
+/// Mass of exp(-t^2/2) - exp(-kGaussianCut^2/2) on [0, x].
+double gaussian_mass(double x) {
   const double floor = std::exp(-0.5 * kGaussianCut * kGaussianCut);
-  const auto mass = [floor](double t) {
-    return std::sqrt(std::numbers::pi / 2) * std::erf(t / std::numbers::sqrt2) - floor * t;
-  };
-  return 1 - mass(x) / mass(kGaussianCut);
+  return std::sqrt(std::numbers::pi / 2) * std::erf(x / std::numbers::sqrt2) - floor * x;
 }
+
+/// Share of the mass of exp(-t^2/2) - exp(-kGaussianCut^2/2) on [-cut, cut] that lies in |t| > x.
+double gaussian_tail(double x) { return 1 - gaussian_mass(x) / gaussian_mass(kGaussianCut); }
 
 /// The x in [0, cut] with gaussian_tail(x) = tail, by bisection.
 double gaussian_quantile(double tail) {
@@ -42,6 +42,21 @@ ReconstructionFilter::ReconstructionFilter(Kind kind, float radius) : kind_(kind
   }
   inverse_cdf_.front() = radius_ * static_cast<float>(kGaussianCut);
   inverse_cdf_.back() = 0;
+}
+
+float ReconstructionFilter::pdf_1d(float offset) const {
+  const float t = std::abs(offset) / radius_;
+  switch (kind_) {
+    case Kind::kBox:
+      return offset >= -radius_ && offset < radius_ ? 0.5f / radius_ : 0;  // each place in one pixel at radius 1/2
+    case Kind::kTent:
+      return std::max(0.0f, 1 - t) / radius_;
+    case Kind::kGaussian:
+      break;
+  }
+  static const auto floor = static_cast<float>(std::exp(-0.5 * kGaussianCut * kGaussianCut));
+  static const auto scale = static_cast<float>(0.5 / gaussian_mass(kGaussianCut));
+  return std::max(0.0f, std::exp(-0.5f * t * t) - floor) * scale / radius_;
 }
 
 float ReconstructionFilter::sample_gaussian(float u) const {

@@ -29,6 +29,11 @@ class ReconstructionFilter {
     return {sample_gaussian(u.x), sample_gaussian(u.y)};
   }
 
+  /// The density of sample() factorises; this is one factor, per pixel, at an offset along one axis.
+  float pdf_1d(float offset) const;
+  /// Beyond this offset the density is 0.
+  float support() const { return kind_ == Kind::kGaussian ? inverse_cdf_.front() : radius_; }
+
  private:
   float sample_gaussian(float u) const;
   Kind kind_ = Kind::kBox;
