@@ -1,6 +1,6 @@
 #include "integrator/features.h"
 
-#include "integrator/passage.h"
+#include "path/passage.h"
 
 namespace turbid {
 namespace {

@@ -1,7 +1,6 @@
 #include "integrator/path_tracer.h"
 
-#include "integrator/passage.h"
-#include "medium/homogeneous.h"
+#include "path/traveller.h"
 
 namespace turbid {
 namespace {
@@ -22,16 +21,20 @@ class Walk {
         settings_(settings),
         sampler_(sampler),
         counters_(counters),
-        stacked_(kVolumes && scene.has_priorities()) {}
+        traveller_(scene, kVolumes, sampler, counters) {}
 
   PixelSample run(const SensorRay& camera) {
     if (settings_.max_depth <= 0) return {Spectrum(0.0f), 0};
     begin(camera);
     while (true) {
       Hit hit;
-      if (kVolumes && medium_ ? !fly(hit) : !cast(hit)) {
-        if (!scatter_in_medium()) break;
-        continue;
+      if (kVolumes && traveller_.medium()) {
+        if (fly(hit)) {
+          if (!scatter_in_medium()) break;
+          continue;
+        }
+      } else {
+        hit = traveller_.cast();
       }
       if (!hit) {
         add_environment();
@@ -46,107 +49,29 @@ class Walk {
 
  private:
   void begin(const SensorRay& camera) {
-    ray_ = camera.ray;
     throughput_ = Spectrum(camera.weight);
-    if constexpr (kVolumes) {
-      if (stacked_) media_ = scene_.sensor_media();
-      enter(scene_.sensor_medium());
-    }
+    traveller_.start(camera.ray, scene_.sensor_medium(), scene_.sensor_media());
     if (camera.near_t > 0) {
-      if (kVolumes && medium_)
-        throughput_ *= medium_->transmittance({ray_.origin, ray_.direction, camera.near_t}, sampler_);
-      ray_ = {ray_.at(camera.near_t), ray_.direction, ray_.t_max - camera.near_t};
+      if (const Medium* medium = traveller_.medium())
+        throughput_ *= medium->transmittance({camera.ray.origin, camera.ray.direction, camera.near_t}, sampler_);
+      traveller_.skip(camera.near_t);
     }
-    last_position_ = ray_.origin;
+    last_position_ = traveller_.ray().origin;
   }
 
-  void enter(const Medium* medium) {
-    if (medium == medium_) return;
-    medium_ = medium;
-    if (!medium) return;
-    homogeneous_ = medium->as_homogeneous();
-    surroundings_ = &scene_.surroundings(medium);
-    free_radius2_ = 0;
-  }
-
-  // --- free flights -------------------------------------------------------------------------------------------------
-
-  /// Casts the ray through empty space. Always true: nothing can happen before a surface.
-  bool cast(Hit& hit) {
-    ++counters_.rays;
-    hit = scene_.rays().intersect(ray_);
-    return true;
-  }
-
-  /// Flies through the medium. True when the flight passes it, to `hit` or (empty) out of the scene; false when it
-  /// collides, with ray_.origin moved to the collision.
+  /// Through a medium; true: collides.
   bool fly(Hit& hit) {
-    const Spectrum mix = channel_mix(throughput_);
-    if (homogeneous_) {
-      // The distance first, the cast after: a short flight makes for a short cast, or none within a ball known to be
-      // free.
-      const Flight flight = homogeneous_->flight(kInfinity, mix, sampler_.next_1d());
-      const float t = flight.collides ? flight.t : kInfinity;
-      const Vec3 end = ray_.at(t);
-      if (length_squared(end - free_center_) < free_radius2_) {
-        ++counters_.free_flights;
-        collide(end, flight);
-        return false;
-      }
-      const float limit = end_of_ray();
-      ++counters_.rays;
-      hit = scene_.rays().intersect({ray_.origin, ray_.direction, std::min(t, limit)});
-      if (!hit && t < limit) {
-        collide(end, flight);
-        find_free_ball();
-        return false;
-      }
-      const Flight passage = homogeneous_->passage(hit ? hit.t : limit, mix);
-      pass(passage, passage.weight * passage.probability);
-      return true;
-    }
-    ++counters_.rays;
-    hit = scene_.rays().intersect(ray_);
-    const float limit = hit ? hit.t : end_of_ray();
-    const Ray way{ray_.origin, ray_.direction, limit};
-    const Flight flight = medium_->sample_flight(way, mix, sampler_);
-    if (medium_->emits() && (depth_ > 0 || !settings_.hide_emitters)) add(flight.emission);
-    if (flight.collides) {
-      collide(ray_.at(flight.t), flight);
-      return false;
-    }
-    pass(flight, medium_->proxy_transmittance(way));
-    return true;
-  }
-
-  void collide(const Vec3& at, const Flight& flight) {
-    throughput_ *= flight.weight;
-    ray_ = {at, ray_.direction};
-  }
-
-  /// proxy: the medium's proxy_transmittance of the way.
-  void pass(const Flight& flight, const Spectrum& proxy) {
-    throughput_ *= flight.weight;
-    const Spectrum passed = straight_ * proxy;
+    const bool glows = traveller_.medium()->emits() && (depth_ > 0 || !settings_.hide_emitters);
+    const Traveller::Leg leg = traveller_.fly(throughput_);
+    if (glows) add(leg.emission);
+    throughput_ *= leg.weight;
+    if (leg.collides) return true;
+    hit = leg.hit;
+    const Spectrum passed = straight_ * leg.proxy;
     passing_prob_ *= passed.sum() / straight_.sum();
     straight_ = passed;
+    return false;
   }
-
-  float end_of_ray() const {
-    return surroundings_->bounded ? ray_.t_max : std::min(ray_.t_max, scene_.distance_to_world_end(ray_));
-  }
-
-  /// In a medium that is dense for its size most flights end far from any surface: one query for the distance to the
-  /// nearest surface then replaces several casts.
-  void find_free_ball() {
-    free_radius2_ = 0;
-    if (!surroundings_->dense) return;
-    const float mean_free_path = surroundings_->mean_free_path;
-    const float radius = scene_.rays().clearance(ray_.origin, kFreeBallLimit * mean_free_path);
-    free_center_ = ray_.origin;
-    free_radius2_ = sqr(radius);
-  }
-  static constexpr float kFreeBallLimit = 8;  ///< mean free paths: a walk rarely gets further before it leaves any ball
 
   // --- events -------------------------------------------------------------------------------------------------------
 
@@ -155,24 +80,25 @@ class Walk {
     alpha_ = 1;
     ++order_;
     if (++depth_ >= settings_.max_depth || order_ > settings_.max_scattering || throughput_.is_black()) return false;
-    const PhaseFunction& phase = medium_->phase();
-    if (!surroundings_->blind) {
-      estimate_direct(ray_.origin, [&](const Vec3& wi) {
-        const float f = phase.eval(dot(ray_.direction, wi));
+    const PhaseFunction& phase = traveller_.medium()->phase();
+    const Ray arrived = traveller_.ray();
+    if (!traveller_.blind()) {
+      estimate_direct(arrived.origin, [&](const Vec3& wi) {
+        const float f = phase.eval(dot(arrived.direction, wi));
         return Bsdf::Eval{Spectrum(f), f};
       });
     }
     const Vec2 u = sampler_.next_2d();
     const float mu = phase.sample(u.x);
-    ray_.direction = direction_about(ray_.direction, mu, 2 * kPi * u.y);
-    set_out(surroundings_->blind ? 0 : phase.eval(mu));
+    traveller_.turn(direction_about(arrived.direction, mu, 2 * kPi * u.y));
+    set_out(traveller_.blind() ? 0 : phase.eval(mu));
     return survives();
   }
 
   bool arrive_at_surface(const Hit& hit) {
     const Object& object = scene_.object(hit);
-    const SurfacePoint point = object.shape->surface_point(ray_, hit);
-    if (stacked_ && media_.hides(object)) {
+    const SurfacePoint point = object.shape->surface_point(traveller_.ray(), hit);
+    if (traveller_.hides(object)) {
       pass_surface(object, point, hit.t, Spectrum(1.0f));
       return true;
     }
@@ -180,7 +106,7 @@ class Walk {
 
     const Bsdf& bsdf = *object.bsdf;
     const lobe::Flags flags = bsdf.flags();
-    const Vec3 wo = -ray_.direction, wo_local = point.to_local(wo);
+    const Vec3 wo = -traveller_.ray().direction, wo_local = point.to_local(wo);
     if (kVolumes && flags == (lobe::kNull | lobe::kDelta | lobe::kTransmission)) {
       const Spectrum through = bsdf.null_transmission(point, wo_local);
       pass_surface(object, point, hit.t, through);
@@ -207,7 +133,7 @@ class Walk {
     alpha_ = 1;
     throughput_ *= sample->weight;
     eta_scale_ *= sqr(sample->eta);
-    leave(object, point, wi);
+    traveller_.leave(object, point, wi);
     set_out(sample->pdf_w);
     if (++depth_ >= settings_.max_depth || throughput_.is_black()) return false;
     return survives();
@@ -215,27 +141,14 @@ class Walk {
 
   /// Goes straight on behind a surface: no event, the last scattering stays the one that chose this direction.
   void pass_surface(const Object& object, const SurfacePoint& point, float t, const Spectrum& through) {
-    const float t_max = ray_.t_max - t;
     passing_prob_ *= null_prob(through);
     straight_ *= through;
-    leave(object, point, ray_.direction);
-    ray_.t_max = t_max;
-  }
-
-  void leave(const Object& object, const SurfacePoint& point, const Vec3& direction) {
-    if (stacked_) {
-      media_.cross(object, point.ng, -ray_.direction, direction);
-      enter(media_.medium());
-    } else if (kVolumes && object.bounds_media) {
-      enter(object.medium_towards(point.ng, direction));
-    }
-    ray_ = {point.leave(direction), direction};
-    free_radius2_ = 0;
+    traveller_.pass_surface(object, point, t);
   }
 
   /// Begins a new edge whose direction was chosen with density pdf_w; 0: no other technique can choose it.
   void set_out(float pdf_w) {
-    last_position_ = ray_.origin;
+    last_position_ = traveller_.ray().origin;
     last_pdf_w_ = pdf_w;
     passing_prob_ = 1;
     straight_ = throughput_;
@@ -258,7 +171,7 @@ class Walk {
 
   // --- light --------------------------------------------------------------------------------------------------------
 
-  bool order_counts() const { return order_ >= settings_.min_scattering && order_ <= settings_.max_scattering; }
+  bool order_counts() const { return settings_.order_counts(order_); }
 
   void add(const Spectrum& value) {
     if (order_counts()) gather(throughput_ * value);
@@ -277,16 +190,16 @@ class Walk {
     if (depth_ == 0 && settings_.hide_emitters) return;
     for (const ChosenEnvironment& environment : scene_.environments()) {
       alpha_ = 1;
-      const Spectrum Le = environment.emitter->Le(ray_.direction);
+      const Spectrum Le = environment.emitter->Le(traveller_.ray().direction);
       const float light_pdf =
-          last_pdf_w_ == 0 ? 0 : environment.prob * environment.emitter->pdf_direct_w(ray_.direction);
+          last_pdf_w_ == 0 ? 0 : environment.prob * environment.emitter->pdf_direct_w(traveller_.ray().direction);
       add(Le * hit_weight(light_pdf));
     }
   }
 
   void add_emission(const SurfaceEmitter& emitter, float emitter_prob, const SurfacePoint& point) {
     if (depth_ == 0 && settings_.hide_emitters) return;
-    const Spectrum Le = emitter.Le(point, -ray_.direction);
+    const Spectrum Le = emitter.Le(point, -traveller_.ray().direction);
     if (Le.is_black()) return;
     const float light_pdf = last_pdf_w_ == 0 ? 0 : emitter_prob * emitter.pdf_direct_w(last_position_, point);
     add(Le * hit_weight(light_pdf));
@@ -319,19 +232,7 @@ class Walk {
 
     const Spectrum towards = throughput_ * scattered.value;
     const Ray shadow = shadow_ray(*light, point ? point->leave(light->wi) : from);
-    Passage passage;
-    if constexpr (kVolumes) {
-      if (stacked_) {
-        MediumStack media = media_;
-        if (object) media.cross(*object, point->ng, -ray_.direction, light->wi);
-        passage = pass_straight(scene_, shadow, media.medium(), towards, sampler_, counters_, &media);
-      } else {
-        const Medium* medium = object && object->bounds_media ? object->medium_towards(point->ng, light->wi) : medium_;
-        passage = pass_straight(scene_, shadow, medium, towards, sampler_, counters_);
-      }
-    } else {
-      passage = pass_empty_space(scene_, shadow, counters_);
-    }
+    const Passage passage = traveller_.look_along(shadow, towards, object, point);
     if (passage.prob == 0) return;
     const float weight = light->delta ? 1 : mis_weight(choice.prob * light->pdf_w, scattered.pdf_w * passage.prob);
     gather(towards * passage.transmittance * light->weight * (weight / choice.prob));
@@ -352,21 +253,13 @@ class Walk {
   Sampler& sampler_;
   SampleCounters& counters_;
 
-  Ray ray_;
+  Traveller traveller_;
   Spectrum throughput_{1.0f}, radiance_{0.0f};
   Spectrum by_order_[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
   float alpha_ = 0;
   int depth_ = 0;        ///< edges behind us
   int order_ = 0;        ///< collisions in media behind us
   float eta_scale_ = 1;  ///< squared index here / at the sensor: takes the radiance scaling out of the roulette
-
-  const bool stacked_;  ///< media_ decides; else the surface that is crossed
-  MediumStack media_;
-  const Medium* medium_ = nullptr;
-  const HomogeneousMedium* homogeneous_ = nullptr;
-  const Surroundings* surroundings_ = nullptr;
-  Vec3 free_center_;
-  float free_radius2_ = 0;
 
   Vec3 last_position_;      ///< where the current direction was chosen ...
   float last_pdf_w_ = 0;    ///< ... and its density, 1/sr; 0 where next-event estimation could not have found its way

@@ -1,19 +1,8 @@
 #pragma once
-#include <limits>
-
 #include "integrator/sampling_integrator.h"
+#include "path/path_settings.h"
 
 namespace turbid {
-
-/// Parameters that unidirectional path tracers share.
-struct PathSettings {
-  static constexpr int kUnlimited = std::numeric_limits<int>::max();
-  int max_depth = kUnlimited;       ///< most edges of a path; 1 sees lights alone, 2 adds one scattering
-  int rr_depth = 5;                 ///< edges before Russian roulette begins
-  int min_scattering = 0;           ///< only paths with at least this many collisions in media count
-  int max_scattering = kUnlimited;  ///< ... and at most this many
-  bool hide_emitters = false;       ///< lights are not seen directly
-};
 
 /// Unidirectional path tracing from the sensor: next-event estimation and scattering combined by multiple importance
 /// sampling (power heuristic), Russian roulette on the throughput.

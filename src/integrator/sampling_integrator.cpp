@@ -15,15 +15,6 @@ bool is_valid(const Spectrum& radiance) { return radiance.is_finite() && radianc
 
 }  // namespace
 
-void SampleCounters::add(const SampleCounters& other) {
-  camera_samples += other.camera_samples;
-  rays += other.rays;
-  shadow_rays += other.shadow_rays;
-  collisions += other.collisions;
-  free_flights += other.free_flights;
-  dropped_samples += other.dropped_samples;
-}
-
 Counters SamplingIntegrator::counters() const {
   const std::lock_guard lock(mutex_);
   return {{"camera_samples", totals_.camera_samples}, {"rays", totals_.rays},

@@ -2,20 +2,9 @@
 #include <mutex>
 
 #include "integrator/integrator.h"
+#include "path/sample_counters.h"
 
 namespace turbid {
-
-/// Counts of one tile of one pass; added to the integrator's totals when the tile is done.
-struct SampleCounters {
-  uint64_t camera_samples = 0;
-  uint64_t rays = 0;             ///< nearest-hit casts
-  uint64_t shadow_rays = 0;      ///< casts towards lights, one for each surface passed
-  uint64_t collisions = 0;       ///< in media
-  uint64_t free_flights = 0;     ///< collisions that needed no cast, inside a ball known to be empty
-  uint64_t dropped_samples = 0;  ///< not finite or negative
-
-  void add(const SampleCounters& other);
-};
 
 /// An integrator that estimates every pixel sample on its own, as the radiance along one sensor ray.
 class SamplingIntegrator : public Integrator {

@@ -1,4 +1,4 @@
-#include "integrator/passage.h"
+#include "path/passage.h"
 
 namespace turbid {
 namespace {

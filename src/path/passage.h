@@ -1,5 +1,7 @@
 #pragma once
-#include "integrator/sampling_integrator.h"
+#include "core/sampler.h"
+#include "path/sample_counters.h"
+#include "scene/scene.h"
 
 namespace turbid {
 

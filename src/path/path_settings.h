@@ -1,0 +1,18 @@
+#pragma once
+#include <limits>
+
+namespace turbid {
+
+/// Parameters that all integrators which follow paths share.
+struct PathSettings {
+  static constexpr int kUnlimited = std::numeric_limits<int>::max();
+  int max_depth = kUnlimited;       ///< most edges of a path; 1 sees lights alone, 2 adds one scattering
+  int rr_depth = 5;                 ///< edges before Russian roulette begins
+  int min_scattering = 0;           ///< only paths with at least this many collisions in media count
+  int max_scattering = kUnlimited;  ///< ... and at most this many
+  bool hide_emitters = false;       ///< lights are not seen directly
+
+  bool order_counts(int order) const { return order >= min_scattering && order <= max_scattering; }
+};
+
+}  // namespace turbid
