@@ -21,4 +21,16 @@ SensorRay OrthographicSensor::sample_ray(const Vec2& film, const Vec2&) const {
   return {{corner_ + across_ * film.x + down_ * film.y, direction_, far_t_}, near_t_};
 }
 
+std::optional<SensorConnection> OrthographicSensor::connect(const Vec3& p, const Vec2&) const {
+  // p = corner + x across + y down + t direction; to_world may shear, so nothing need be perpendicular.
+  const Vec3 from_corner = p - corner_;
+  const float volume = dot(cross(across_, down_), direction_);
+  const float x = dot(cross(from_corner, down_), direction_) / volume;
+  const float y = dot(cross(across_, from_corner), direction_) / volume;
+  const Vec3 position = corner_ + across_ * x + down_ * y;
+  const float t = dot(p - position, direction_);
+  if (!(t > near_t_ && t < far_t_)) return std::nullopt;
+  return SensorConnection{position, {x, y}, 1 / std::abs(volume), near_t_, far_t_};
+}
+
 }  // namespace turbid

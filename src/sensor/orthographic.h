@@ -14,6 +14,9 @@ class OrthographicSensor final : public Sensor {
 
   /// The origin lies on the plane z = 0 of the sensor's space.
   SensorRay sample_ray(const Vec2& film, const Vec2& u_aperture) const override;
+  std::optional<SensorConnection> connect(const Vec3& p, const Vec2& u_aperture) const override;
+  /// Always empty.
+  std::optional<SensorConnection> connect_to_infinity(const Vec3&, const Vec2&) const override { return std::nullopt; }
   /// The middle of the film.
   Vec3 position() const override { return corner_ + (across_ + down_) * 0.5f; }
 

@@ -21,4 +21,15 @@ SensorRay PerspectiveSensor::sample_ray(const Vec2& film, const Vec2&) const {
   return {{origin_, towards / scale, clip_.far_clip * scale}, clip_.near_clip * scale};
 }
 
+std::optional<SensorConnection> PerspectiveSensor::connect(const Vec3& p, const Vec2& u_aperture) const {
+  const float distance = length(p - origin_);
+  return at_distance(connect_to_infinity((p - origin_) / distance, u_aperture), distance);
+}
+
+std::optional<SensorConnection> PerspectiveSensor::connect_to_infinity(const Vec3& direction, const Vec2&) const {
+  auto result = connect_through({corner_, across_, down_}, clip_, direction);
+  if (result) result->position = origin_;
+  return result;
+}
+
 }  // namespace turbid

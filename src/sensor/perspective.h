@@ -17,6 +17,8 @@ class PerspectiveSensor final : public Sensor {
 
   /// The origin is the pinhole; clipping planes are turned into distances along the ray.
   SensorRay sample_ray(const Vec2& film, const Vec2& u_aperture) const override;
+  std::optional<SensorConnection> connect(const Vec3& p, const Vec2& u_aperture) const override;
+  std::optional<SensorConnection> connect_to_infinity(const Vec3& direction, const Vec2& u_aperture) const override;
   Vec3 position() const override { return origin_; }
 
  private:

@@ -25,11 +25,29 @@ ThinLensSensor::ThinLensSensor(const Transform& to_world, double x_fov, double a
 }
 
 SensorRay ThinLensSensor::sample_ray(const Vec2& film, const Vec2& u_aperture) const {
-  const Vec2 lens = square_to_disk(u_aperture);
-  const Vec3 offset = lens_x_ * lens.x + lens_y_ * lens.y;
+  const Vec3 offset = lens_offset(u_aperture);
   const Vec3 towards = corner_ + across_ * film.x + down_ * film.y - offset / focus_distance_;  // 1 along the axis
   const float scale = length(towards);
   return {{origin_ + offset, towards / scale, clip_.far_clip * scale}, clip_.near_clip * scale};
+}
+
+Vec3 ThinLensSensor::lens_offset(const Vec2& u) const {
+  const Vec2 lens = square_to_disk(u);
+  return lens_x_ * lens.x + lens_y_ * lens.y;
+}
+
+std::optional<SensorConnection> ThinLensSensor::connect(const Vec3& p, const Vec2& u_aperture) const {
+  const Vec3 from_lens = p - (origin_ + lens_offset(u_aperture));
+  const float distance = length(from_lens);
+  return at_distance(connect_to_infinity(from_lens / distance, u_aperture), distance);
+}
+
+std::optional<SensorConnection> ThinLensSensor::connect_to_infinity(const Vec3& direction,
+                                                                    const Vec2& u_aperture) const {
+  const Vec3 offset = lens_offset(u_aperture);
+  auto result = connect_through({corner_, across_, down_}, clip_, direction, offset, focus_distance_);
+  if (result) result->position = origin_ + offset;
+  return result;
 }
 
 }  // namespace turbid

@@ -15,11 +15,16 @@ class ThinLensSensor final : public Sensor {
 
   /// The origin is a point of the lens.
   SensorRay sample_ray(const Vec2& film, const Vec2& u_aperture) const override;
+  std::optional<SensorConnection> connect(const Vec3& p, const Vec2& u_aperture) const override;
+  std::optional<SensorConnection> connect_to_infinity(const Vec3& direction, const Vec2& u_aperture) const override;
   bool needs_aperture() const override { return true; }
   /// The centre of the lens.
   Vec3 position() const override { return origin_; }
 
  private:
+  /// The point of the lens that u stands for, from its centre.
+  Vec3 lens_offset(const Vec2& u) const;
+
   Vec3 origin_;
   Vec3 corner_, across_, down_;  ///< as in PerspectiveSensor
   Vec3 lens_x_, lens_y_;         ///< radii of the lens
