@@ -35,6 +35,11 @@ std::array<int, 3> cell_counts(const Volume& sigma_t, const Volume* emission) {
   return counts;
 }
 
+MajorantGrid make_grid(const HeterogeneousParts& parts) {
+  const Volume& sigma_t = required(parts.sigma_t, "extinction");
+  return {sigma_t.bounds(), cell_counts(sigma_t, parts.emission.get())};
+}
+
 /// Positive exponential variate from u in [0, 1).
 float optical_distance(Sampler& sampler) { return -std::log(1 - sampler.next_1d()); }
 
@@ -63,9 +68,7 @@ Spectrum proxy(const Spectrum& depth) {
 }  // namespace
 
 HeterogeneousMedium::HeterogeneousMedium(const HeterogeneousParts& parts)
-    : Medium(parts.phase),
-      parts_(parts),
-      grid_(required(parts.sigma_t, "extinction").bounds(), cell_counts(*parts.sigma_t, parts.emission.get())) {
+    : Medium(parts.phase), parts_(parts), grid_(make_grid(parts)) {
   if (!parts.phase) throw std::invalid_argument("a heterogeneous medium needs a phase function");
   check(*parts.sigma_t, "sigma_t", parts.scale);
   check(required(parts.albedo, "albedo"), "albedo", 1, 1);

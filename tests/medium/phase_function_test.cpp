@@ -144,8 +144,8 @@ TEST(BlendPhase, AtItsEndsIsOneOfTheTwo) {
              second = std::make_shared<HenyeyGreensteinPhase>(-0.2f);
   const BlendPhase only_first(first, second, 0), only_second(first, second, 1);
   for (const float u : {0.0f, 0.3f, kOneMinusEpsilon}) {
-    EXPECT_EQ(only_first.sample(u), first->sample(u));
-    EXPECT_EQ(only_second.sample(u), second->sample(u));
+    EXPECT_FLOAT_EQ(only_first.sample(u), first->sample(u));
+    EXPECT_FLOAT_EQ(only_second.sample(u), second->sample(u));
   }
 }
 
