@@ -1,6 +1,7 @@
 #include "integrator/integrators.h"
 
 #include "integrator/aov.h"
+#include "integrator/particle_tracer.h"
 #include "integrator/path_tracer.h"
 
 namespace turbid {
@@ -83,6 +84,13 @@ Table make_table() {
            "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
            with_common({}),
            [](const Properties& p) { return make_path_tracer(PathTracer::Kind::kVolumes, p); }},
+          {"ptracer",
+           {},
+           "light tracing: paths from the lights, joined with the sensor; cannot see through mirrors and smooth glass",
+           with_common({}),
+           [](const Properties& p) {
+             return IntegratorSetup{std::make_shared<ParticleTracer>(path_settings(p)), false};
+           }},
           {"moment",
            {},
            "wraps an image integrator and writes the mean square of its samples too (layers m2_*)",
@@ -96,8 +104,7 @@ Table make_table() {
            }},
           aov_row(),
       },
-      {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective",
-       "ptracer"},
+      {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective"},
       advice_for_old_names());
 }
 

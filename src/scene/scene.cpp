@@ -56,6 +56,15 @@ Scene::Scene(SceneParts parts) : parts_(std::move(parts)) {
   if (has_priorities_) sensor_media_ = media_at(eye);
   sensor_medium_ = parts_.sensor_medium_declared && !has_priorities_ ? parts_.sensor_medium.get() : medium_at(eye);
   find_media();
+
+  // Rays from infinity must start where the media end that lie on their way. (Choices by power stay as they are: this
+  // group of lights grows as one.)
+  if (has_unbounded_media())
+    for (const auto& emitter : parts_.emitters) emitter->set_scene_bounds(center_, kWorldScale * radius_);
+}
+
+bool Scene::has_unbounded_media() const {
+  return std::any_of(media_.begin(), media_.end(), [](const Surroundings& m) { return !m.bounded; });
 }
 
 void Scene::find_enclosures() {

@@ -52,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(Mitsuba, PeerScene,
                                            std::pair("bsdf_spheres/test_envmap", "path"),
                                            std::pair("bsdf_spheres/test_textured_diffuse", "path"),
                                            std::pair("bsdf_spheres/test_roughdielectric", "path"),
-                                           std::pair("floating_sphere/test_directional", "direct")),
+                                           std::pair("floating_sphere/test_directional", "direct"),
+                                           std::pair("various_emitters/test_various_emitters", "ptracer")),
                          [](const auto& instance) {
                            const std::string name = instance.param.first;
                            return name.substr(name.find("test_") + 5);
