@@ -184,24 +184,39 @@ TEST(ParticleTracer, PrioritiesAndWorldMedium) {
   expect_same(scene(kLamp + kFloor + fog(1.5f) + world, integer("max_depth", 4), clipped));
 }
 
-// A coarse ball with smooth normals: shading and geometric normals are far apart.
+/// A coarse ball with smooth normals: shading and geometric normals are far apart.
+std::string octahedron(const TemporaryFolder& folder, const std::string& placement, const std::string& bsdf) {
+  const std::string file = folder.file("octahedron.ply");
+  std::ofstream(file) << "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+                         "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                         "element face 8\nproperty list uchar int vertex_indices\nend_header\n"
+                         "1 0 0 1 0 0\n-1 0 0 -1 0 0\n0 1 0 0 1 0\n0 -1 0 0 -1 0\n0 0 1 0 0 1\n0 0 -1 0 0 -1\n"
+                         "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n";
+  return "<shape type=\"ply\"><string name=\"filename\" value=\"" + file + "\"/><transform name=\"to_world\">" +
+         placement + "</transform>" + bsdf + "</shape>";
+}
+
 TEST(ParticleTracer, MeshWithStronglyVaryingNormals) {
   const TemporaryFolder folder;
-  std::ofstream(folder.file("octahedron.ply"))
-      << "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
-         "property float nx\nproperty float ny\nproperty float nz\nelement face 8\n"
-         "property list uchar int vertex_indices\nend_header\n"
-         "1 0 0 1 0 0\n-1 0 0 -1 0 0\n0 1 0 0 1 0\n0 -1 0 0 -1 0\n0 0 1 0 0 1\n0 0 -1 0 0 -1\n"
-         "3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n3 2 0 5\n3 1 2 5\n3 3 1 5\n3 0 3 5\n";
   const auto solid = [&](const std::string& bsdf) {
-    return R"(<shape type="ply"><string name="filename" value=")" + folder.file("octahedron.ply") +
-           R"("/><transform name="to_world"><rotate z="1" angle="20"/><translate x="-0.4" y="-1" z="1"/></transform>)" +
-           bsdf + "</shape>";
+    return octahedron(folder, R"(<rotate z="1" angle="20"/><translate x="-0.4" y="-1" z="1"/>)", bsdf);
   };
   expect_same(scene(kLamp + kFloor + solid(R"(<bsdf type="diffuse"/>)"), kShort), {32, 64});
   expect_same(
       scene(kLamp + kFloor + solid(R"(<bsdf type="roughconductor"><float name="alpha" value="0.4"/></bsdf>)"), kShort),
       {32, 64});
+}
+
+// Specular refraction by shading normals on the way from the lamp to the floor; the sensor sees the floor alone.
+TEST(ParticleTracer, GlassWithStronglyVaryingNormals) {
+  const TemporaryFolder folder;
+  const std::string down = R"(<sensor type="perspective"><float name="fov" value="40"/>
+    <transform name="to_world"><lookat origin="0.3, -1.2, 0.5" target="0.3, 0.2, 0" up="0, 0, 1"/></transform>)" +
+                           kFilm + "</sensor>";
+  const std::string glass =
+      octahedron(folder, R"(<scale value="0.4"/><rotate z="1" angle="20"/><translate x="0.3" y="0.2" z="1"/>)",
+                 R"(<bsdf type="dielectric"><float name="int_ior" value="1.2"/></bsdf>)");
+  expect_same(scene(kLamp + kFloor + glass, integer("max_depth", 6), down), {128, 64});
 }
 
 TEST(ParticleTracer, FilterAndCropOfTheFilm) {

@@ -1,0 +1,142 @@
+// Light paths on their own: what they carry where a closed form says it, and the correction for shading normals.
+#include "path/light_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "scene/loader.h"
+
+namespace turbid {
+namespace {
+
+constexpr int kPaths = 100000;
+
+Scene load(const std::string& content) {
+  return Scene(load_scene_from_string("<scene version=\"3.0.0\"><sensor type=\"perspective\"/>" + content + "</scene>",
+                                      "test scene")
+                   .parts);
+}
+
+std::string fog_ball(float sigma_t) {
+  return R"(<shape type="sphere"><float name="radius" value="2"/><bsdf type="null"/>
+    <medium name="interior" type="homogeneous"><float name="sigma_t" value=")" +
+         std::to_string(sigma_t) + R"("/><rgb name="albedo" value="0.9, 0.5, 0.2"/></medium></shape>)";
+}
+
+/// Sums what arrives in events of each order, and the lengths of the first segments.
+struct Sums {
+  void at_emitter(const Emission& emission, const Traveller&) { emitted += emission.throughput; }
+  void at_surface(const SurfaceEvent&, const PathState& state, const Traveller&) { on_surfaces += state.throughput; }
+  void at_collision(const CollisionEvent&, const PathState& state, const Traveller&) {
+    EXPECT_EQ(state.depth, state.order);
+    if (state.order <= 2) collided[state.order - 1] += state.throughput;
+  }
+  void at_segment(const Ray& segment, const Medium&, const PathState& state, bool collides) {
+    if (state.order > 0) return;
+    first_length += static_cast<double>(segment.t_max);
+    if (!collides) ++passed;
+  }
+
+  Spectrum emitted{0.0f}, on_surfaces{0.0f}, collided[2] = {Spectrum(0.0f), Spectrum(0.0f)};
+  double first_length = 0;
+  int passed = 0;
+};
+
+Sums walk(const Scene& scene, const PathSettings& settings = {}) {
+  const LightSources sources(scene, true);
+  Sampler sampler(SamplerKind::kIndependent, 1);
+  SampleCounters counters;
+  Sums sums;
+  LightWalk light(scene, sources, settings, sampler, counters, sums);
+  for (uint64_t path = 0; path < kPaths; ++path) {
+    sampler.start(path, 0);
+    light.run();
+  }
+  EXPECT_EQ(counters.light_paths, uint64_t{kPaths});
+  return sums;
+}
+
+const std::string kPoint = R"(<emitter type="point"><rgb name="intensity" value="1"/></emitter>)";
+
+// From the middle of a ball of radius 2: the first flight collides with probability 1 - exp(-2 sigma).
+TEST(LightWalk, CarriesThePowerOfALightIntoItsFirstCollisions) {
+  const Sums sums = walk(load(kPoint + fog_ball(0.7f)));
+  const double collide = 1 - std::exp(-1.4), power = 4 * std::numbers::pi, albedo[] = {0.9, 0.5, 0.2};
+  const double error = std::sqrt(collide * (1 - collide) / kPaths);
+  for (int c = 0; c < kChannels; ++c) {
+    EXPECT_NEAR(static_cast<double>(sums.emitted[c]) / kPaths / power, 1, 1e-2);
+    EXPECT_NEAR(static_cast<double>(sums.collided[0][c]) / kPaths / power / albedo[c], collide, 4 * error + 1e-3);
+  }
+  EXPECT_NEAR(static_cast<double>(sums.passed) / kPaths, 1 - collide, 4 * error);
+  EXPECT_NEAR(sums.first_length / kPaths, collide / 0.7, 0.02);  // mean of min(exponential, 2)
+  // Planted: another extinction must not fit.
+  EXPECT_GT(std::abs(static_cast<double>(sums.passed) / kPaths - std::exp(-1.5)), 4 * error);
+}
+
+TEST(LightWalk, EndsWhereNoFurtherEdgeIsAllowed) {
+  const Scene scene = load(kPoint + fog_ball(5));
+  PathSettings settings;
+  settings.max_depth = 2;
+  EXPECT_FALSE(walk(scene, settings).collided[0].is_black());
+  EXPECT_TRUE(walk(scene, settings).collided[1].is_black());
+  settings.max_depth = 1;
+  EXPECT_TRUE(walk(scene, settings).collided[0].is_black());
+  settings.max_depth = 5;
+  settings.max_scattering = 1;
+  EXPECT_TRUE(walk(scene, settings).collided[1].is_black());
+}
+
+// A lamp, a point and a sky: each gives the light paths its own power, whatever its share of the choice is.
+TEST(LightSources, GiveEveryLightItsPower) {
+  const Scene scene = load(kPoint + R"(<emitter type="constant"><rgb name="radiance" value="0.3"/></emitter>
+    <shape type="sphere"><emitter type="area"><rgb name="radiance" value="0.01"/></emitter></shape>)");
+  const LightSources sources(scene, true);
+  Sampler sampler(SamplerKind::kIndependent, 2);
+  std::map<const Emitter*, double> powers;
+  std::map<const Emitter*, int> counts;
+  for (uint64_t i = 0; i < kPaths; ++i) {
+    sampler.start(i, 0);
+    const auto emission = sources.sample(sampler);
+    ASSERT_TRUE(emission);
+    powers[emission->emitter] += static_cast<double>(emission->throughput[0]) / kPaths;
+    ++counts[emission->emitter];
+  }
+  ASSERT_EQ(powers.size(), 3u);
+  for (const Emitter* emitter : scene.emitters())
+    EXPECT_NEAR(powers[emitter] / static_cast<double>(emitter->power()[0]), 1, 4 / std::sqrt(counts[emitter]));
+}
+
+TEST(LightSources, KnowTheMediumThatTheyStandIn) {
+  Sampler sampler(SamplerKind::kIndependent, 2);
+  const auto medium_of_start = [&](const Scene& scene) {
+    sampler.start(0, 0);
+    return LightSources(scene, true).sample(sampler)->medium;
+  };
+  const std::string lamp = R"(<shape type="sphere"><float name="radius" value="0.1"/>
+    <emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>)";
+  const std::string far = R"(<emitter type="point"><point name="position" value="5, 0, 0"/></emitter>)";
+  const std::string sky = R"(<emitter type="constant"/>)";
+  EXPECT_NE(medium_of_start(load(kPoint + fog_ball(1))), nullptr);
+  EXPECT_NE(medium_of_start(load(lamp + fog_ball(1))), nullptr);
+  EXPECT_EQ(medium_of_start(load(far + fog_ball(1))), nullptr);
+  EXPECT_EQ(medium_of_start(load(sky + fog_ball(1))), nullptr);
+}
+
+TEST(AdjointCorrection, IsOneForTrueNormalsAndNothingWhereTheyDisagree) {
+  SurfacePoint point;
+  point.ng = Vec3(0, 0, 1);
+  const Vec3 a = normalize(Vec3(0.3f, 0.2f, 0.9f)), b = normalize(Vec3(-0.5f, 0.1f, 0.4f));
+  point.shading = Frame(point.ng);
+  EXPECT_NEAR(adjoint_correction(point, a, b), 1, 1e-6f);
+  EXPECT_NEAR(adjoint_correction(point, a, -b), 1, 1e-6f) << "transmission";
+  point.shading = Frame(normalize(Vec3(0.5f, 0, 1)));
+  EXPECT_NEAR(adjoint_correction(point, a, b) * adjoint_correction(point, b, a), 1, 1e-5f);
+  EXPECT_GT(std::abs(adjoint_correction(point, a, b) - 1), 0.1f);
+  const Vec3 between = normalize(Vec3(-1, 0, 0.1f));  // above the surface, below the shading normal's horizon
+  EXPECT_EQ(adjoint_correction(point, a, between), 0);
+  EXPECT_EQ(adjoint_correction(point, between, a), 0);
+}
+
+}  // namespace
+}  // namespace turbid
