@@ -214,9 +214,9 @@ TEST(ParticleTracer, GlassWithStronglyVaryingNormals) {
     <transform name="to_world"><lookat origin="0.3, -1.2, 0.5" target="0.3, 0.2, 0" up="0, 0, 1"/></transform>)" +
                            kFilm + "</sensor>";
   const std::string glass =
-      octahedron(folder, R"(<scale value="0.4"/><rotate z="1" angle="20"/><translate x="0.3" y="0.2" z="1"/>)",
-                 R"(<bsdf type="dielectric"><float name="int_ior" value="1.2"/></bsdf>)");
-  expect_same(scene(kLamp + kFloor + glass, integer("max_depth", 6), down), {128, 64});
+      octahedron(folder, R"(<scale value="0.5"/><rotate z="1" angle="20"/><translate x="0.3" y="0.2" z="1.05"/>)",
+                 R"(<bsdf type="dielectric"><float name="int_ior" value="1.4"/></bsdf>)");
+  expect_same(scene(kLamp + kFloor + glass, integer("max_depth", 6), down), {512, 128});
 }
 
 TEST(ParticleTracer, FilterAndCropOfTheFilm) {
