@@ -115,6 +115,14 @@ TEST(ParticleTracer, SingleOrdersInFog) {
 
 TEST(ParticleTracer, ChromaticMedium) { expect_same(scene(kLamp + fog(2.2f, "0.1, 0.6, 2.5"), kShort)); }
 
+TEST(ParticleTracer, HeterogeneousMedium) {
+  const std::string smoke = R"(<bsdf type="null"/><medium name="interior" type="heterogeneous">
+    <volume name="sigma_t" type="constvolume"><rgb name="value" value="0.3, 0.6, 0.9"/>
+    <transform name="to_world"><scale value="2.5"/><translate x="-1.2" y="-1.2" z="-0.5"/></transform></volume>
+    <volume name="albedo" type="constvolume"><rgb name="value" value="0.9, 0.8, 0.7"/></volume></medium>)";
+  expect_same(scene(kLamp + kFloor + ball("0, 0, 0.5", 2.2f, smoke), kShort));
+}
+
 TEST(ParticleTracer, RoughGlassInFrontOfALamp) {
   const std::string pane = R"(<shape type="sphere"><point name="center" value="0.2, -0.8, 1"/>
     <float name="radius" value="0.9"/><bsdf type="roughdielectric"><float name="alpha" value="0.4"/>
