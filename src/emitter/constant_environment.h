@@ -14,7 +14,7 @@ class ConstantEnvironment final : public EnvironmentEmitter {
   std::optional<DirectLightSample> sample_direct(const Vec3&, const Vec2& u) const override {
     return DirectLightSample{.wi = square_to_sphere(u),
                              .distance = kInfinity,
-                             .position = {},
+                             .position = Vec3(0),
                              .weight = radiance_ / kUniformSpherePdfW,
                              .pdf_w = kUniformSpherePdfW};
   }

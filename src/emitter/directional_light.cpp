@@ -16,7 +16,7 @@ void DirectionalLight::set_scene_bounds(const Vec3& center, float radius) {
 
 std::optional<DirectLightSample> DirectionalLight::sample_direct(const Vec3&, const Vec2&) const {
   return DirectLightSample{
-      .wi = -direction_, .distance = kInfinity, .position = {}, .weight = irradiance_, .delta = true};
+      .wi = -direction_, .distance = kInfinity, .position = Vec3(0), .weight = irradiance_, .delta = true};
 }
 
 std::optional<EmissionSample> DirectionalLight::sample_emission(const Vec2& u_position, const Vec2&) const {

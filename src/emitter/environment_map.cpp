@@ -133,7 +133,7 @@ std::optional<DirectLightSample> EnvironmentMap::sample_direct(const Vec3&, cons
   if (!(pdf_w > 0)) return std::nullopt;
   return DirectLightSample{.wi = normalize(to_world_.vector(local)),
                            .distance = kInfinity,
-                           .position = {},
+                           .position = Vec3(0),
                            .weight = radiance(place) / pdf_w,
                            .pdf_w = pdf_w};
 }
