@@ -25,8 +25,8 @@ struct SourceLocation {
   int line = 0, column = 0;
 };
 
-/// What a scene asks for is wrong or not supported. The message of what() is complete: place, offending line with a caret
-/// when the file can be read, what was found and what would be right.
+/// What a scene asks for is wrong or not supported. The message of what() is complete: place, offending line with a
+/// caret when the file can be read, what was found and what would be right.
 class SceneError : public Error {
  public:
   explicit SceneError(const std::string& message) : Error(message, 3), reason_(message) {}

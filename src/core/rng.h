@@ -4,7 +4,8 @@
 
 namespace turbid {
 
-/// Scrambles 64 bits so that every input bit reaches every output bit (the finaliser of SplitMix64, Steele et al. 2014).
+/// Scrambles 64 bits so that every input bit reaches every output bit (the finaliser of SplitMix64, Steele et al.
+/// 2014).
 constexpr uint64_t mix_bits(uint64_t v) {
   v ^= v >> 30;
   v *= 0xbf58476d1ce4e5b9ull;
@@ -24,11 +25,12 @@ constexpr uint64_t hash_counters(uint64_t first, Rest... rest) {
 /// The largest float below 1.
 inline constexpr float kOneMinusEpsilon = 0x1.fffffep-1f;
 
-/// PCG32 (O'Neill 2014): 64 bits of state, period 2^64, seeded from a counter so that any stream can be reproduced alone.
+/// PCG32 (O'Neill 2014): 64 bits of state, period 2^64, seeded from a counter so that any stream can be reproduced
+/// alone.
 class Rng {
  public:
   Rng() = default;
-  explicit Rng(uint64_t counter) : state_(mix_bits(counter) ), increment_((mix_bits(~counter) << 1) | 1) { next_u32(); }
+  explicit Rng(uint64_t counter) : state_(mix_bits(counter)), increment_((mix_bits(~counter) << 1) | 1) { next_u32(); }
 
   uint32_t next_u32() {
     const uint64_t old = state_;

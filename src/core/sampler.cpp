@@ -22,7 +22,9 @@ constexpr uint32_t laine_karras(uint32_t v, uint32_t seed) {
   return v;
 }
 
-constexpr uint32_t owen_scramble(uint32_t v, uint32_t seed) { return reverse_bits(laine_karras(reverse_bits(v), seed)); }
+constexpr uint32_t owen_scramble(uint32_t v, uint32_t seed) {
+  return reverse_bits(laine_karras(reverse_bits(v), seed));
+}
 
 /// Second dimension of Sobol's sequence: its generator matrix is Pascal's triangle modulo 2.
 constexpr uint32_t sobol_second(uint32_t index) {

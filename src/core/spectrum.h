@@ -18,10 +18,18 @@ class Spectrum {
   constexpr float& operator[](int c) { return values_[static_cast<size_t>(c)]; }
   constexpr float operator[](int c) const { return values_[static_cast<size_t>(c)]; }
 
-  constexpr Spectrum& operator+=(const Spectrum& o) { return apply(o, [](float a, float b) { return a + b; }); }
-  constexpr Spectrum& operator-=(const Spectrum& o) { return apply(o, [](float a, float b) { return a - b; }); }
-  constexpr Spectrum& operator*=(const Spectrum& o) { return apply(o, [](float a, float b) { return a * b; }); }
-  constexpr Spectrum& operator/=(const Spectrum& o) { return apply(o, [](float a, float b) { return a / b; }); }
+  constexpr Spectrum& operator+=(const Spectrum& o) {
+    return apply(o, [](float a, float b) { return a + b; });
+  }
+  constexpr Spectrum& operator-=(const Spectrum& o) {
+    return apply(o, [](float a, float b) { return a - b; });
+  }
+  constexpr Spectrum& operator*=(const Spectrum& o) {
+    return apply(o, [](float a, float b) { return a * b; });
+  }
+  constexpr Spectrum& operator/=(const Spectrum& o) {
+    return apply(o, [](float a, float b) { return a / b; });
+  }
   constexpr Spectrum& operator*=(float s) { return *this *= Spectrum(s); }
   constexpr Spectrum& operator/=(float s) { return *this *= 1.0f / s; }
 

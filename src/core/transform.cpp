@@ -4,9 +4,7 @@
 
 namespace turbid {
 namespace {
-Vec3 narrow(const Imath::V3d& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
+Vec3 narrow(const Imath::V3d& v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 Imath::V3d widen(const Vec3& v) { return Imath::V3d(v); }
 }  // namespace
 
@@ -89,8 +87,8 @@ double Transform::uniform_scale() const {
   const double s = x.length();
   const double tolerance = 1e-5 * s;  // rounding of decimal matrices in scene files
   const bool equal = std::abs(y.length() - s) < tolerance && std::abs(z.length() - s) < tolerance;
-  const bool orthogonal = std::abs(x.dot(y)) < tolerance * s && std::abs(y.dot(z)) < tolerance * s &&
-                          std::abs(z.dot(x)) < tolerance * s;
+  const bool orthogonal =
+      std::abs(x.dot(y)) < tolerance * s && std::abs(y.dot(z)) < tolerance * s && std::abs(z.dot(x)) < tolerance * s;
   return equal && orthogonal ? s : 0;
 }
 

@@ -45,8 +45,6 @@ inline Vec2 square_to_triangle(const Vec2& u) {
 }
 
 /// Tent on [-1, 1]; density 1 - |x|.
-inline float interval_to_tent(float u) {
-  return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u));
-}
+inline float interval_to_tent(float u) { return u < 0.5f ? std::sqrt(2 * u) - 1 : 1 - std::sqrt(2 * (1 - u)); }
 
 }  // namespace turbid

@@ -22,10 +22,10 @@ MeshData load_obj(const std::filesystem::path& path, const MeshFileOptions& opti
 /// Throws FileError.
 MeshData load_ply(const std::filesystem::path& path, const MeshFileOptions& options = {});
 
-/// Reads mesh number `shape_index` (from 0) of a Mitsuba serialized file, version 3 or 4: a table of contents at the end
-/// and, per mesh, zlib-compressed arrays of positions, normals, uvs and colours (the attribute `vertex_color`) in single
-/// or double precision. A file may ask for facets as face_normals does; vertex normals are computed when it has none.
-/// flip_tex_coords has no effect. Throws FileError.
+/// Reads mesh number `shape_index` (from 0) of a Mitsuba serialized file, version 3 or 4: a table of contents at the
+/// end and, per mesh, zlib-compressed arrays of positions, normals, uvs and colours (the attribute `vertex_color`) in
+/// single or double precision. A file may ask for facets as face_normals does; vertex normals are computed when it has
+/// none. flip_tex_coords has no effect. Throws FileError.
 MeshData load_serialized(const std::filesystem::path& path, int64_t shape_index, const MeshFileOptions& options = {});
 
 /// What all readers do last: names the mesh, maps it to the world, drops or computes normals.

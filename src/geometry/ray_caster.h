@@ -27,9 +27,9 @@ class RayCaster {
   /// The radius of a ball around p that no surface enters, at most `limit`: a lower bound, 0 where nothing is known.
   float clearance(const Vec3& p, float limit) const;
 
-  /// Asking for the clearance near this shape costs less than the few casts that it may save. True for spheres outside of
-  /// the hierarchy alone: they bound the distance at once, so that hardly any of the hierarchy is visited. A search that
-  /// begins in the hierarchy costs as much as 5 to 15 short casts, whether it holds 20 triangles or 300,000.
+  /// Asking for the clearance near this shape costs less than the few casts that it may save. True for spheres outside
+  /// of the hierarchy alone: they bound the distance at once, so that hardly any of the hierarchy is visited. A search
+  /// that begins in the hierarchy costs as much as 5 to 15 short casts, whether it holds 20 triangles or 300,000.
   bool has_cheap_clearance(uint32_t index) const;
 
   const Shape& shape(uint32_t index) const { return *shapes_[index]; }

@@ -94,8 +94,8 @@ struct SceneDocument {
 /// True when there is something of that name; never throws (names may be nonsense).
 bool file_exists(const std::filesystem::path& path);
 
-/// Reads a Mitsuba scene file (version 0.4.0 or later; see LegacyUpgrade for those before 2.0.0). Throws SceneError when its text is wrong, FileError when a
-/// file cannot be read.
+/// Reads a Mitsuba scene file (version 0.4.0 or later; see LegacyUpgrade for those before 2.0.0). Throws SceneError
+/// when its text is wrong, FileError when a file cannot be read.
 SceneDocument read_document(const std::filesystem::path& file, const Overrides& overrides = {});
 /// The same from text; `name` stands for the file in messages, relative file names start from `folder`.
 SceneDocument read_document_from_string(const std::string& xml, const std::string& name,

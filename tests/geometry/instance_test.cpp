@@ -47,7 +47,7 @@ TEST(Instance, ShowsWhatTheMappedMeshShows) {
       EXPECT_NEAR(hit.t, expected.t, 1e-4f);
       const SurfacePoint s = instances.shape(1).surface_point(ray, hit), e = plain->surface_point(ray, expected);
       if (hit.primitive != expected.primitive) continue;  // through an edge
-      EXPECT_LT(length(s.p - e.p), 1e-3f);  // points near edges are moved inwards, by the error of each
+      EXPECT_LT(length(s.p - e.p), 1e-3f);                // points near edges are moved inwards, by the error of each
       EXPECT_LT(std::abs(dot(s.p - e.p, e.ng)), s.error + e.error);
       EXPECT_GT(dot(s.ng, e.ng), 0.99999f);
       if (to_world.uniform_scale() > 0) {  // else the normals between vertices are others

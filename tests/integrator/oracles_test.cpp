@@ -22,8 +22,8 @@ const std::string kDownwardCamera = R"(
   </sensor>
   <emitter type="constant"><rgb name="radiance" value="1"/></emitter>)";
 
-/// A layer below z = 0, 400 mean free paths wide: no wider than it needs to be, for a ray leaves a triangle at a distance
-/// that grows with the triangle (float rounding), and that distance must stay far below a mean free path.
+/// A layer below z = 0, 400 mean free paths wide: no wider than it needs to be, for a ray leaves a triangle at a
+/// distance that grows with the triangle (float rounding), and that distance must stay far below a mean free path.
 std::string layer(const std::string& bsdf, const std::string& medium, double thickness) {
   const std::string half = std::to_string(thickness / 2);
   return R"(<scene version="3.0.0"><integrator type="volpath"/>)" + kDownwardCamera + R"(
