@@ -17,20 +17,19 @@ std::optional<DirectLightSample> AreaLight::sample_direct(const Vec3& from, cons
       .distance = distance,
       .position = sample->point.leave(-wi),  // off the light itself, so that it does not shade itself
       .weight = radiance_->eval(sample->point) / sample->pdf_w,
-      .pdf_w = sample->pdf_w};
+      .pdf_w = sample->pdf_w,
+      .ng = sample->point.ng};
 }
 
 std::optional<EmissionSample> AreaLight::sample_emission(const Vec2& u_position, const Vec2& u_direction) const {
   const AreaSample sample = shape_->sample_area(u_position);
   const Vec3 local = square_to_cosine_hemisphere(u_direction);
   const Vec3 direction = Frame(sample.point.ng).to_world(local);
-  const float pdf_w = cosine_hemisphere_pdf_w(local);
-  if (!(pdf_w > 0)) return std::nullopt;
+  if (!(local.z > 0)) return std::nullopt;
   return EmissionSample{.origin = sample.point.leave(direction),
                         .direction = direction,
                         .weight = radiance_->eval(sample.point) * (kPi / sample.pdf_a),
-                        .pdf_a = sample.pdf_a,
-                        .pdf_w = pdf_w,
+                        .pdf = {sample.pdf_a, cosine_hemisphere_pdf_w(local)},
                         .ng = sample.point.ng};
 }
 

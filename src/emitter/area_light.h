@@ -17,12 +17,15 @@ class AreaLight final : public SurfaceEmitter {
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
   /// Uniform over the surface, cosine-distributed about its geometric normal.
   std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
+  EmissionPdf emission_pdf(const Vec3& ng, const Vec3& direction) const override {
+    return {shape_->pdf_a(), std::max(0.0f, dot(ng, direction)) * kInvPi};
+  }
   /// The geometric normal decides which side is the outside.
   Spectrum Le(const SurfacePoint& point, const Vec3& w) const override {
     return dot(point.ng, w) > 0 ? radiance_->eval(point) : Spectrum();
   }
-  float pdf_direct_w(const Vec3& from, const SurfacePoint& point) const override {
-    return shape_->pdf_direct_w(from, point);
+  float pdf_direct_w(const Vec3& from, const Vec3& p, const Vec3& ng) const override {
+    return shape_->pdf_direct_w(from, p, ng);
   }
   Bounds3 bounds() const override { return shape_->bounds(); }
   /// pi times area times the mean radiance over the texture: exact where the texture is constant.

@@ -23,8 +23,7 @@ std::optional<EmissionSample> DirectionalLight::sample_emission(const Vec2& u_po
   return EmissionSample{.origin = start_from_infinity(center_, radius_, direction_, u_position),
                         .direction = direction_,
                         .weight = power(),
-                        .pdf_a = 1 / (kPi * sqr(radius_)),
-                        .ng = Vec3(0)};
+                        .pdf = emission_pdf({}, direction_)};
 }
 
 }  // namespace turbid

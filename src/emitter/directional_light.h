@@ -13,6 +13,7 @@ class DirectionalLight final : public Emitter {
   void set_scene_bounds(const Vec3& center, float radius) override;
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
   std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
+  EmissionPdf emission_pdf(const Vec3&, const Vec3&) const override { return {1 / (kPi * sqr(radius_)), 0}; }
   bool can_be_hit() const override { return false; }
   bool is_at_infinity() const override { return true; }
   /// Through the disk of the scene's bounding sphere.

@@ -19,9 +19,7 @@ std::optional<EmissionSample> EnvironmentEmitter::sample_emission(const Vec2& u_
   return EmissionSample{.origin = start_from_infinity(center_, radius_, direction, u_position),
                         .direction = direction,
                         .weight = towards->weight * disk_area(),
-                        .pdf_a = 1 / disk_area(),
-                        .pdf_w = towards->pdf_w,
-                        .ng = Vec3(0)};
+                        .pdf = {1 / disk_area(), towards->pdf_w}};
 }
 
 }  // namespace turbid

@@ -15,6 +15,13 @@ struct DirectLightSample {
   Spectrum weight;     ///< Le / pdf_w for lights with area, or intensity / distance^2 (irradiance) for delta lights
   float pdf_w = 0;     ///< 1/sr at the receiving point; 0 when delta is true
   bool delta = false;  ///< point, spot, directional: no other technique can find it
+  Vec3 ng{0};          ///< geometric normal at the point, for lights with a surface; else zero
+};
+
+/// With which densities sample_emission chooses a ray.
+struct EmissionPdf {
+  float pdf_a = 0;  ///< of the origin, per unit area (lights at infinity: of a plane across the direction); 0: a point
+  float pdf_w = 0;  ///< of the direction given the origin, 1/sr; 0: a single direction, or one that is never chosen
 };
 
 /// A ray that leaves a light, chosen in proportion to what it carries as nearly as the light knows how.
@@ -22,9 +29,8 @@ struct EmissionSample {
   Vec3 origin;      ///< off the light's own surface, on the side that the ray leaves to
   Vec3 direction;   ///< unit, away from the light
   Spectrum weight;  ///< flux: Le |cos| / (pdf_a pdf_w) with the factors that exist, W
-  float pdf_a = 0;  ///< of the origin, per unit area (lights at infinity: of a plane across the direction); 0: a point
-  float pdf_w = 0;  ///< of the direction given the origin, 1/sr; 0: a single direction
-  Vec3 ng;          ///< geometric normal at the origin, for lights with a surface; else zero
+  EmissionPdf pdf;
+  Vec3 ng{0};  ///< geometric normal at the origin, for lights with a surface; else zero
 };
 
 /// A source of light. Immutable after `set_scene_bounds`, shared between threads.
@@ -42,8 +48,14 @@ class Emitter {
   /// infinity start their rays on the bounding sphere that set_scene_bounds gave, uniform in the disk across.
   virtual std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const = 0;
 
+  /// Densities with which sample_emission chooses a ray that leaves the light in `direction` (unit) from a point that
+  /// belongs to the light, with geometric normal ng there (lights without a surface ignore it).
+  virtual EmissionPdf emission_pdf(const Vec3& ng, const Vec3& direction) const = 0;
+
   /// Can a ray meet it by chance? False for delta lights.
   virtual bool can_be_hit() const = 0;
+  /// False where sample_direct never finds a direction: beams.
+  virtual bool can_be_aimed_at() const { return true; }
   /// A box around every point that light starts from; infinite (the default) for lights at infinity.
   virtual Bounds3 bounds() const { return Bounds3(Vec3(-kInfinity), Vec3(kInfinity)); }
 
@@ -76,6 +88,9 @@ class EnvironmentEmitter : public Emitter {
   }
   /// The direction as sample_direct chooses it, the start in the disk across.
   std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const final;
+  EmissionPdf emission_pdf(const Vec3&, const Vec3& direction) const final {
+    return {1 / disk_area(), pdf_direct_w(-direction)};
+  }
 
  protected:
   /// Area of the disk of the scene's bounding sphere.
@@ -91,8 +106,9 @@ class SurfaceEmitter : public Emitter {
  public:
   /// Radiance leaving `point` in direction `w` (unit, away from the surface), W/(sr m^2); 0 on the inside.
   virtual Spectrum Le(const SurfacePoint& point, const Vec3& w) const = 0;
-  /// Density with which sample_direct(from) chooses `point`, 1/sr at `from`.
-  virtual float pdf_direct_w(const Vec3& from, const SurfacePoint& point) const = 0;
+  /// Density with which sample_direct(from) chooses the point p of the light, with geometric normal ng there; 1/sr at
+  /// `from`.
+  virtual float pdf_direct_w(const Vec3& from, const Vec3& p, const Vec3& ng) const = 0;
   bool can_be_hit() const final { return true; }
 };
 

@@ -19,8 +19,7 @@ std::optional<EmissionSample> PointLight::sample_emission(const Vec2&, const Vec
   return EmissionSample{.origin = position_,
                         .direction = square_to_sphere(u_direction),
                         .weight = intensity_ / kUniformSpherePdfW,
-                        .pdf_w = kUniformSpherePdfW,
-                        .ng = Vec3(0)};
+                        .pdf = emission_pdf({}, {})};
 }
 
 }  // namespace turbid

@@ -1,4 +1,5 @@
 #pragma once
+#include "core/warp.h"
 #include "emitter/emitter.h"
 
 namespace turbid {
@@ -13,6 +14,7 @@ class PointLight final : public Emitter {
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
   /// Uniform over the sphere of directions.
   std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
+  EmissionPdf emission_pdf(const Vec3&, const Vec3&) const override { return {0, kUniformSpherePdfW}; }
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }
   Spectrum power() const override { return intensity_ * (4 * kPi); }

@@ -56,8 +56,16 @@ std::optional<EmissionSample> Projector::sample_emission(const Vec2&, const Vec2
   return EmissionSample{.origin = position_,
                         .direction = normalize(to_world_.vector(towards)),
                         .weight = value * (kPi * scale_ * area),
-                        .pdf_w = distance * sqr(distance) / area,
-                        .ng = Vec3(0)};
+                        .pdf = {0, distance * sqr(distance) / area}};
+}
+
+EmissionPdf Projector::emission_pdf(const Vec3&, const Vec3& direction) const {
+  const Vec3 local = to_local_.vector(direction);
+  const bool inside =
+      local.z > 0 && std::abs(local.x) <= half_width_ * local.z && std::abs(local.y) <= half_height_ * local.z;
+  if (!inside) return {};
+  const float cosine = local.z / length(local);
+  return {0, 1 / (4 * half_width_ * half_height_ * cosine * cosine * cosine)};
 }
 
 Spectrum Projector::power() const {

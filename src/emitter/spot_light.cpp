@@ -55,11 +55,12 @@ std::optional<DirectLightSample> SpotLight::sample_direct(const Vec3& from, cons
 std::optional<EmissionSample> SpotLight::sample_emission(const Vec2&, const Vec2& u_direction) const {
   const Vec3 direction = axis_.to_world(square_to_cone(u_direction, cos_cutoff_));
   const float pdf_w = cone_pdf_w(cos_cutoff_);
-  return EmissionSample{.origin = position_,
-                        .direction = direction,
-                        .weight = intensity(direction) / pdf_w,
-                        .pdf_w = pdf_w,
-                        .ng = Vec3(0)};
+  return EmissionSample{
+      .origin = position_, .direction = direction, .weight = intensity(direction) / pdf_w, .pdf = {0, pdf_w}};
+}
+
+EmissionPdf SpotLight::emission_pdf(const Vec3&, const Vec3& direction) const {
+  return {0, dot(axis_.n, direction) >= cos_cutoff_ ? cone_pdf_w(cos_cutoff_) : 0};
 }
 
 Spectrum SpotLight::power() const {

@@ -52,8 +52,8 @@ class Shape {
     float pdf_w;
   };
   virtual std::optional<DirectSample> sample_direct(const Vec3& from, const Vec2& u) const;
-  /// Density of sample_direct at the given point of this shape, 1/sr at `from`.
-  virtual float pdf_direct_w(const Vec3& from, const SurfacePoint& at) const;
+  /// Density of sample_direct at the point p of this shape with geometric normal ng, 1/sr at `from`.
+  virtual float pdf_direct_w(const Vec3& from, const Vec3& p, const Vec3& ng) const;
 
   /// A committed Embree geometry of this shape, owned by the caller (rtcReleaseGeometry). Rays keep Hit::t, primitive,
   /// barycentric and ng right.

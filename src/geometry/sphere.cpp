@@ -84,10 +84,10 @@ std::optional<Shape::DirectSample> Sphere::sample_direct(const Vec3& from, const
                       static_cast<float>(1 / (2 * std::numbers::pi * solid))};
 }
 
-float Sphere::pdf_direct_w(const Vec3& from, const SurfacePoint& at) const {
+float Sphere::pdf_direct_w(const Vec3& from, const Vec3& p, const Vec3& ng) const {
   const auto r = static_cast<double>(radius_);
   const double d_squared = (V3d(center_) - V3d(from)).length2();
-  if (d_squared <= r * r) return Shape::pdf_direct_w(from, at);
+  if (d_squared <= r * r) return Shape::pdf_direct_w(from, p, ng);
   return static_cast<float>(1 / (2 * std::numbers::pi * one_minus_cos_cone(r, d_squared)));
 }
 

@@ -25,7 +25,7 @@ class Sphere final : public Shape {
   AreaSample sample_area(const Vec2& u) const override;
   /// From outside: uniform in the cone that the sphere fills; from inside: uniform in area.
   std::optional<DirectSample> sample_direct(const Vec3& from, const Vec2& u) const override;
-  float pdf_direct_w(const Vec3& from, const SurfacePoint& at) const override;
+  float pdf_direct_w(const Vec3& from, const Vec3& p, const Vec3& ng) const override;
   RTCGeometry make_embree_geometry(RTCDevice device) const override;
   float distance_bound(const Vec3& p, uint32_t primitive) const override;
 

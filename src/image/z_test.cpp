@@ -92,12 +92,14 @@ double PassStatistics::variance(size_t block, int channel) const {
   return passes_ > 1 ? blocks_[block].m2[static_cast<size_t>(channel)] / static_cast<double>(passes_ - 1) : 0;
 }
 
-ZTestResult two_estimator_z_test(const PassStatistics& a, const PassStatistics& b) {
+ZTestResult two_estimator_z_test(const PassStatistics& a, const PassStatistics& b, const std::vector<bool>& skip) {
   if (a.size() != b.size() || a.block() != b.block()) throw std::invalid_argument("estimators with different blocks");
   if (std::min(a.passes(), b.passes()) < kFewestPasses) throw std::invalid_argument("fewer than 32 passes");
   ZTestResult result;
-  result.level = sidak_level(ZTestResult::kSignificance, a.block_count());
+  const auto skipped = static_cast<size_t>(std::count(skip.begin(), skip.end(), true));
+  result.level = sidak_level(ZTestResult::kSignificance, a.block_count() - skipped);
   for (size_t i = 0; i < a.block_count(); ++i) {
+    if (!skip.empty() && skip[i]) continue;
     for (int c = 0; c < kChannels; ++c) {
       const double rounding = kRounding * std::max(std::abs(a.mean(i, c)), std::abs(b.mean(i, c)));
       const double variance = a.variance(i, c) / static_cast<double>(a.passes()) +

@@ -69,7 +69,7 @@ class PassStatistics {
 /// Do two estimators have the same expectation? z = |m1 - m2| / sqrt(s1^2/n1 + s2^2/n2) per block and channel, s^2 over
 /// passes, at level 0.01 with Sidak's correction over blocks (NUMERICS 10). Needs 32 passes of each and the same
 /// blocks, else std::invalid_argument. Differences within float rounding (1e-6 of the mean) pass where there is no
-/// variance.
-ZTestResult two_estimator_z_test(const PassStatistics& a, const PassStatistics& b);
+/// variance. Blocks for which `skip` is true (empty: none) are left out.
+ZTestResult two_estimator_z_test(const PassStatistics& a, const PassStatistics& b, const std::vector<bool>& skip = {});
 
 }  // namespace turbid

@@ -22,6 +22,7 @@ class AovIntegrator : public Integrator {
   bool render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) override;
   std::vector<std::string> layer_names() const override { return names_; }
   bool sees_media() const override { return !inner_ || inner_->sees_media(); }
+  PathSupport support() const override { return inner_ ? inner_->support() : PathSupport{}; }
   Counters counters() const override { return inner_ ? inner_->counters() : Counters{}; }
 
  private:

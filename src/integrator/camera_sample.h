@@ -13,7 +13,10 @@ inline SensorRay start_camera_sample(const Scene& scene, const Vec2i& on_film, u
   const Vec2 center{static_cast<float>(on_film.x) + 0.5f, static_cast<float>(on_film.y) + 0.5f};
   const Vec2 scale{1 / static_cast<float>(film.size.x), 1 / static_cast<float>(film.size.y)};
   const Vec2 position = (center + film.filter.sample(sampler.next_2d())) * scale;
-  return scene.sensor().sample_ray(position, scene.sensor().needs_aperture() ? sampler.next_2d() : Vec2(0.5f));
+  const Vec2 u_aperture = scene.sensor().needs_aperture() ? sampler.next_2d() : Vec2(0.5f);
+  SensorRay ray = scene.sensor().sample_ray(position, u_aperture);
+  ray.u_aperture = u_aperture;
+  return ray;
 }
 
 }  // namespace turbid

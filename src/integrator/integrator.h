@@ -32,6 +32,16 @@ struct OrderLayer {
   size_t channel;
 };
 
+/// Which kinds of paths an integrator finds; a comparison of two covers what both do (NUMERICS 10). A delta light is
+/// one that nothing meets by chance, a specular vertex one that leaves no choice of direction; passing straight on is
+/// no vertex.
+struct PathSupport {
+  bool specular_at_sensor = true;        ///< the vertex next to the sensor is specular
+  bool specular_at_delta_light = false;  ///< a delta light shines on a specular vertex
+  bool beams = false;                    ///< the light of emitters that cannot be aimed at
+  bool glowing_media = true;
+};
+
 /// Counters that integrators keep while rendering, summed over threads: rays cast, samples dropped ... by name.
 using Counters = std::map<std::string, uint64_t>;
 
@@ -54,6 +64,8 @@ class Integrator {
   virtual bool split_orders(const std::vector<OrderLayer>& /*layers*/) { return false; }
   /// False: media are ignored.
   virtual bool sees_media() const { return true; }
+
+  virtual PathSupport support() const { return {}; }
 
   /// Counters since construction.
   virtual Counters counters() const { return {}; }

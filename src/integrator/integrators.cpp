@@ -1,6 +1,7 @@
 #include "integrator/integrators.h"
 
 #include "integrator/aov.h"
+#include "integrator/bdpt.h"
 #include "integrator/particle_tracer.h"
 #include "integrator/path_tracer.h"
 
@@ -52,11 +53,23 @@ IntegratorSetup make_path_tracer(PathTracer::Kind kind, const Properties& proper
   return {std::make_shared<PathTracer>(kind, path_settings(properties)), false};
 }
 
+IntegratorSetup make_bdpt(const Properties& properties) {
+  BdptSettings own;
+  const std::string heuristic = properties.string("heuristic");
+  if (heuristic != "power" && heuristic != "balance")
+    properties.refuse("heuristic", "must be 'power' or 'balance', found '" + heuristic + "'");
+  if (heuristic == "balance") own.heuristic = StrategyWeights::Heuristic::kBalance;
+  own.connections = properties.number("connections");
+  if (properties.boolean("visualize_strategies"))
+    own.shown_edges = static_cast<int>(properties.integer("visualize_depth"));
+  return {std::make_shared<BidirectionalPathTracer>(path_settings(properties), own), false};
+}
+
 /// Integrators of Mitsuba 0.6 that make the picture of volpath in another way. Whoever adds one takes it off the list.
 std::map<std::string, std::string> advice_for_old_names() {
   std::map<std::string, std::string> advice;
   for (const char* name :
-       {"bdpt", "photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "vpl", "adaptive", "irrcache"})
+       {"photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "vpl", "adaptive", "irrcache"})
     advice[name] = "'volpath' makes the same picture by path tracing (--integrator volpath)";
   return advice;
 }
@@ -91,6 +104,20 @@ Table make_table() {
            [](const Properties& p) {
              return IntegratorSetup{std::make_shared<ParticleTracer>(path_settings(p)), false};
            }},
+          {"bdpt",
+           {},
+           "bidirectional path tracing: paths from lights and from the sensor, joined in all ways and weighed against "
+           "each other",
+           with_common({{"heuristic", ParameterType::kString, "power",
+                         "how the ways to make a path share it: power or balance"},
+                        {"connections", ParameterType::kFloat, "8",
+                         "about how many of the joining lines are tried for paths of one length", {.min = 1}},
+                        {"visualize_strategies", ParameterType::kBoolean, "false",
+                         "writes what each way contributes as layers strategy.weighted.K.S and strategy.plain.K.S: K "
+                         "edges, S vertices from the light"},
+                        {"visualize_depth", ParameterType::kInteger, "6", "most edges of the paths in these layers",
+                         {.min = 1, .max = 16}}}),
+           make_bdpt},
           {"moment",
            {},
            "wraps an image integrator and writes the mean square of its samples too (layers m2_*)",

@@ -175,6 +175,14 @@ Spectrum HeterogeneousMedium::transmittance(const Ray& ray, Sampler& sampler) co
   return estimate * exp(control * -1.0f);
 }
 
+Spectrum HeterogeneousMedium::proxy_sigma_t(const Vec3& p) const {
+  constexpr float kLeastShare = 1e-3f;
+  const MajorantCell& cell = grid_.cell_at(p);
+  Spectrum result;
+  for (int c = 0; c < kChannels; ++c) result[c] = std::max(cell.mean[c], kLeastShare * cell.majorant);
+  return result;
+}
+
 Spectrum HeterogeneousMedium::proxy_transmittance(const Ray& ray) const {
   Spectrum depth(0.0f);
   grid_.walk(ray, [&](const MajorantCell& cell, float t, float end) {

@@ -50,6 +50,8 @@ class HomogeneousMedium final : public Medium {
   Spectrum transmittance(const Ray& ray, Sampler&) const override { return transmittance(ray.t_max); }
   Spectrum proxy_transmittance(const Ray& ray) const override { return transmittance(ray.t_max); }
 
+  Spectrum proxy_sigma_t(const Vec3&) const override { return sigma_t_; }
+
   float max_sigma_t() const override { return sigma_t_.max(); }
   const HomogeneousMedium* as_homogeneous() const override { return this; }
   Spectrum sigma_t() const override { return sigma_t_; }

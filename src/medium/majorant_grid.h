@@ -29,6 +29,9 @@ class MajorantGrid {
   MajorantCell& cell(int x, int y, int z) { return cells_[index(x, y, z)]; }
   const MajorantCell& cell(int x, int y, int z) const { return cells_[index(x, y, z)]; }
 
+  /// The cell that p lies in; outside of the box the one next to it.
+  const MajorantCell& cell_at(const Vec3& p) const { return cell(place(p, 0), place(p, 1), place(p, 2)); }
+
   /// The part of a ray within the box, as distances; empty when it misses.
   std::optional<std::array<float, 2>> clip(const Ray& ray) const;
 
@@ -38,6 +41,11 @@ class MajorantGrid {
   void walk(const Ray& ray, const Visit& visit) const;
 
  private:
+  /// The number of the cell along an axis; the comparisons also catch NaN.
+  int place(const Vec3& p, unsigned axis) const {
+    const float cells = (p[axis] - box_.min[axis]) / cell_size_[axis];
+    return !(cells > 0) ? 0 : cells < static_cast<float>(counts_[axis]) ? static_cast<int>(cells) : counts_[axis] - 1;
+  }
   size_t index(int x, int y, int z) const {
     return (static_cast<size_t>(z) * static_cast<size_t>(counts_[1]) + static_cast<size_t>(y)) *
                static_cast<size_t>(counts_[0]) +
@@ -61,9 +69,7 @@ void MajorantGrid::walk(const Ray& ray, const Visit& visit) const {
   std::array<float, 3> next, delta;  // distance to the next wall across each axis; between walls
   for (unsigned a = 0; a < 3; ++a) {
     const float d = ray.direction[a];
-    const float place = (entry[a] - box_.min[a]) / cell_size_[a];
-    // The comparisons also catch NaN.
-    at[a] = !(place > 0) ? 0 : place < static_cast<float>(counts_[a]) ? static_cast<int>(place) : counts_[a] - 1;
+    at[a] = place(entry, a);
     step[a] = d > 0 ? 1 : -1;
     delta[a] = d == 0 ? kInfinity : cell_size_[a] / std::abs(d);
     const float wall = box_.min[a] + cell_size_[a] * static_cast<float>(at[a] + (d > 0));

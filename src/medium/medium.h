@@ -41,6 +41,9 @@ class Medium {
   /// media.
   virtual Spectrum proxy_transmittance(const Ray& ray) const = 0;
 
+  /// A stand-in for the extinction at p, with the same purpose: not 0 where light collides.
+  virtual Spectrum proxy_sigma_t(const Vec3& /*p*/) const { return sigma_t(); }
+
   /// Whether flights can bring emission.
   virtual bool emits() const { return false; }
 

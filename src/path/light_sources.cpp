@@ -38,7 +38,7 @@ std::optional<Emission> LightSources::sample(Sampler& sampler) const {
   const Source& source = sources_[chosen.index];
   const auto ray = source.emitter->sample_emission(u_position, u_direction);
   if (!ray || ray->weight.is_black()) return std::nullopt;
-  Emission emission{source.emitter, source.object, *ray, chosen.prob, ray->weight / chosen.prob,
+  Emission emission{source.emitter, chosen.index, source.object, *ray, chosen.prob, ray->weight / chosen.prob,
                     source.medium,  source.media};
   if (sees_media_ && !source.stays_in_one_place) find_medium(source, emission);
   return emission;

@@ -10,6 +10,7 @@ namespace turbid {
 /// A ray of light that sets out.
 struct Emission {
   const Emitter* emitter;
+  size_t index;          ///< of the emitter in Scene::emitters
   const Object* object;  ///< that shines; null for lights without a surface
   EmissionSample ray;
   float prob;            ///< of this emitter among all
@@ -29,6 +30,8 @@ class LightSources {
   /// picture), which counts as a path that carries nothing.
   std::optional<Emission> sample(Sampler& sampler) const;
   bool empty() const { return sources_.empty(); }
+  /// Probability of the light with this place in Scene::emitters.
+  float prob(size_t emitter) const { return distribution_.prob(emitter); }
 
  private:
   struct Source {

@@ -3,7 +3,7 @@
 namespace turbid {
 namespace {
 
-constexpr Passage kBlocked{Spectrum(0.0f), 0};
+constexpr Passage kBlocked{Spectrum(0.0f), 0, Spectrum(0.0f)};
 
 /// Attenuates along the first `distance` of the ray.
 void attenuate(Passage& passage, Spectrum& throughput, const Medium& medium, const Ray& ray, float distance,
@@ -15,6 +15,7 @@ void attenuate(Passage& passage, Spectrum& throughput, const Medium& medium, con
   const Spectrum passed = throughput * proxy;
   passage.prob *= passed.sum() / throughput.sum();
   passage.transmittance *= transmittance;
+  passage.proxy *= proxy;
   throughput = passed;
 }
 
@@ -57,6 +58,7 @@ Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectru
       if (through.is_black()) return kBlocked;
       passage.transmittance *= through;
       passage.prob *= null_prob(through);
+      passage.proxy *= through;
       throughput *= through;
     }
     if (enclosing) {

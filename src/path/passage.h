@@ -12,6 +12,8 @@ struct Passage {
   /// The walk multiplies its density by the same number, so that multiple importance sampling weighs like with like; it
   /// may be any function of the line as long as both use it.
   float prob = 1;
+  /// The product of Medium::proxy_transmittance and Bsdf::null_transmission along the line: the same from either end.
+  Spectrum proxy{1.0f};
 };
 
 /// Probability of passing straight through a surface that transmits `null_transmission`, as used in Passage::prob.
@@ -26,6 +28,20 @@ inline Spectrum channel_mix(const Spectrum& throughput) { return throughput / th
 /// around the origin, in scenes with priorities only; `medium` is then its medium.
 Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, Sampler& sampler,
                       SampleCounters& counters, const MediumStack* enclosing = nullptr);
+
+/// From one place to just before another.
+inline Ray line_between(const Vec3& origin, const Vec3& end) {
+  // The end is known to a few units in the last place of the distance.
+  constexpr float kBeforeEnd = 1 - 1e-5f;
+  const Vec3 way = end - origin;
+  const float distance = length(way);
+  return {origin, way / distance, distance * kBeforeEnd};
+}
+
+/// From `origin` to just before a light.
+inline Ray ray_to_light(const DirectLightSample& light, const Vec3& origin) {
+  return std::isfinite(light.distance) ? line_between(origin, light.position) : Ray{origin, light.wi};
+}
 
 /// The line is free of any surface; media are ignored.
 Passage pass_empty_space(const Scene& scene, const Ray& ray, SampleCounters& counters);

@@ -9,6 +9,7 @@ struct SampleCounters {
   uint64_t light_paths = 0;
   uint64_t rays = 0;             ///< nearest-hit casts
   uint64_t shadow_rays = 0;      ///< casts towards lights or the sensor, one for each surface passed
+  uint64_t connections = 0;      ///< of vertices of light and sensor paths
   uint64_t collisions = 0;       ///< in media
   uint64_t free_flights = 0;     ///< collisions that needed no cast, inside a ball known to be empty
   uint64_t dropped_samples = 0;  ///< not finite or negative
@@ -18,6 +19,7 @@ struct SampleCounters {
     light_paths += other.light_paths;
     rays += other.rays;
     shadow_rays += other.shadow_rays;
+    connections += other.connections;
     collisions += other.collisions;
     free_flights += other.free_flights;
     dropped_samples += other.dropped_samples;

@@ -1,5 +1,6 @@
 #pragma once
 #include "medium/homogeneous.h"
+#include "path/events.h"
 #include "path/passage.h"
 
 namespace turbid {
@@ -76,10 +77,9 @@ class Traveller {
   /// Starts `distance` further along, in the same medium.
   void skip(float distance) { ray_ = {ray_.at(distance), ray_.direction, ray_.t_max - distance}; }
 
-  /// What the straight line `line` lets through, which starts here, or at a point of a surface that the walk has
-  /// arrived at and leads to either side of it. `throughput` as for pass_straight.
-  Passage look_along(const Ray& line, const Spectrum& throughput, const Object* object = nullptr,
-                     const SurfacePoint* point = nullptr) const;
+  /// What the straight line `line` lets through, which starts here, or at a surface that the walk has arrived at and
+  /// leads to either side of it. `throughput` as for pass_straight.
+  Passage look_along(const Ray& line, const Spectrum& throughput, const SurfaceEvent* surface = nullptr) const;
 
  private:
   void enter(const Medium* medium) {

@@ -1,5 +1,6 @@
 // Emitters: where light comes from.
 #include "emitter/area_light.h"
+#include "emitter/collimated_beam.h"
 #include "emitter/constant_environment.h"
 #include "emitter/directional_light.h"
 #include "emitter/environment_map.h"
@@ -73,6 +74,11 @@ EmitterPtr make_directional(const Properties& p, Builder& b, const EmitterPlace&
   return std::make_shared<DirectionalLight>(direction, b.spectrum(p, "irradiance"));
 }
 
+EmitterPtr make_collimated(const Properties& p, Builder& b, const EmitterPlace& place) {
+  refuse_shape(p, place);
+  return std::make_shared<CollimatedBeam>(p.transform("to_world"), b.spectrum(p, "power"), p.number("radius"));
+}
+
 EmitterPtr make_area(const Properties& p, Builder& b, const EmitterPlace& place) {
   if (!place.shape) throw SceneError(p.node().where, "emitter 'area' must stand inside the shape that shines");
   return std::make_shared<AreaLight>(place.shape, b.texture(p, "radiance"));
@@ -137,6 +143,14 @@ const EmitterTable& emitter_table() {
                        kToWorld,
                        kWeight},
         .make = make_directional},
+       {.name = "collimated",
+        .summary = "A laser: parallel light along its +z axis from a disk. Only paths from lights find it.",
+        .parameters = {{"power", kSpectrum, "1", "W", kNonNegative},
+                       {"radius", kFloat, "0", "of the disk, scene units; 0: a single ray", kNonNegative},
+                       kToWorld,
+                       kInMedium,
+                       kWeight},
+        .make = make_collimated},
        {.name = "area",
         .summary = "A shape that shines from its outside.",
         .parameters = {{"radiance", kTexture, "1", "W/(sr m^2)", kNonNegative}, kInMedium, kWeight},

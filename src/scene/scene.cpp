@@ -15,11 +15,16 @@ DiscreteDistribution distribution_of_choice(const std::vector<const Emitter*>& e
   constexpr float kLeastShare = 0.1f;
   float sums[2] = {}, counts[2] = {};
   for (const Emitter* emitter : emitters) {
+    if (!emitter->can_be_aimed_at()) continue;
     sums[emitter->is_at_infinity()] += std::max(0.0f, emitter->power().mean());
     counts[emitter->is_at_infinity()] += 1;
   }
   std::vector<float> weights;
   for (const Emitter* emitter : emitters) {
+    if (!emitter->can_be_aimed_at()) {
+      weights.push_back(0);
+      continue;
+    }
     const bool group = emitter->is_at_infinity();
     const float share = sums[group] > 0 ? std::max(0.0f, emitter->power().mean()) / sums[group] : 0;
     weights.push_back(std::max(share, kLeastShare / counts[group]));
@@ -86,11 +91,11 @@ void Scene::choose_probabilities() {
   for (const auto& emitter : parts_.emitters) {
     if (emitter->is_environment())
       environments_.push_back(
-          {static_cast<const EnvironmentEmitter*>(emitter.get()), emitter_distribution_.prob(index)});
+          {static_cast<const EnvironmentEmitter*>(emitter.get()), emitter_distribution_.prob(index), index});
     ++index;
   }
   for (const Object& object : parts_.objects)
-    object_emitter_prob_.push_back(object.emitter ? emitter_distribution_.prob(index++) : 0);
+    object_emitter_index_.push_back(object.emitter ? index++ : emitters_.size());
 }
 
 void Scene::find_media() {
@@ -108,7 +113,12 @@ void Scene::find_media() {
 }
 
 Surroundings Scene::survey(const Medium* medium) const {
-  Surroundings result{medium, true, true, false, 1 / medium->max_sigma_t()};
+  Surroundings result{.medium = medium,
+                      .bounded = true,
+                      .blind = true,
+                      .dense = false,
+                      .sealed = true,
+                      .mean_free_path = 1 / medium->max_sigma_t()};
   // A medium that was declared for the sensor, or lies outside of a shape, may be without end.
   if (parts_.sensor_medium_declared && medium == parts_.sensor_medium.get()) result.bounded = false;
   if (medium == parts_.world_medium.get()) result.bounded = false;
@@ -117,11 +127,14 @@ Surroundings Scene::survey(const Medium* medium) const {
   bool cheap_clearance = true;
   for (size_t i = 0; i < parts_.objects.size(); ++i) {
     const Object& object = parts_.objects[i];
-    if (object.exterior.get() == medium) result.bounded = false;
+    if (object.exterior.get() == medium) {
+      result.bounded = false;
+      if (object.bsdf->flags() & lobe::kNull) result.sealed = false;
+    }
     if (object.interior.get() != medium) continue;
     if (!object.shape->is_closed()) result.bounded = false;
     if (!rays_->has_cheap_clearance(static_cast<uint32_t>(i))) cheap_clearance = false;
-    if (object.bsdf->flags() & lobe::kNull) result.blind = false;
+    if (object.bsdf->flags() & lobe::kNull) result.blind = result.sealed = false;
     const Bounds3 box = object.shape->bounds();
     const Vec3 size = box.size();
     thinnest = std::min({thinnest, size.x, size.y, size.z});
@@ -132,17 +145,18 @@ Surroundings Scene::survey(const Medium* medium) const {
   });
   // With priorities a medium may also end where another one begins.
   if (!result.bounded || lit_inside || has_priorities_) result.blind = false;
+  if (!result.bounded || has_priorities_) result.sealed = false;
   constexpr float kDenseThickness = 8;  // mean free paths across
   result.dense = result.bounded && cheap_clearance && thinnest > kDenseThickness * result.mean_free_path;
   return result;
 }
 
 EmitterChoice Scene::choose_emitter(float& u) const {
-  if (emitters_.empty()) return {nullptr, 0};
-  if (emitters_.size() == 1) return {emitters_[0], 1};
+  if (!(emitter_distribution_.sum() > 0)) return {nullptr, 0, 0};
+  if (emitters_.size() == 1) return {emitters_[0], 1, 0};
   const DiscreteSample chosen = emitter_distribution_.sample(u);
   u = chosen.u;
-  return {emitters_[chosen.index], chosen.prob};
+  return {emitters_[chosen.index], chosen.prob, chosen.index};
 }
 
 MediumStack Scene::media_at(const Vec3& p) const {

@@ -39,7 +39,14 @@ struct FilmSettings {
   Vec2i crop_size{0, 0};  ///< 0: no crop, the whole film
   ReconstructionFilter filter;
   bool alpha = false;  ///< write an alpha channel
+
+  /// Of the image that the film exposes: the crop window, or all of it.
+  const Vec2i& image_size() const { return crop_size.x > 0 ? crop_size : size; }
 };
+
+inline size_t pixel_count(const FilmSettings& film) {
+  return static_cast<size_t>(film.image_size().x) * static_cast<size_t>(film.image_size().y);
+}
 
 /// What a Scene is assembled from. `sensor_medium` is only looked at when `sensor_medium_declared`.
 struct SceneParts {
@@ -54,16 +61,18 @@ struct SceneParts {
   uint32_t sample_count = 16;
 };
 
-/// An emitter chosen for next-event estimation, with its probability.
+/// An emitter chosen for next-event estimation, with its probability and its place in Scene::emitters.
 struct EmitterChoice {
   const Emitter* emitter;
   float prob;
+  size_t index;
 };
 
-/// A light at infinity with the probability that choose_emitter returns it.
+/// A light at infinity with the probability that choose_emitter returns it, and its place in Scene::emitters.
 struct ChosenEnvironment {
   const EnvironmentEmitter* emitter;
   float prob;
+  size_t index;
 };
 
 /// What is known beforehand about the space that a medium fills.
@@ -77,6 +86,8 @@ struct Surroundings {
   /// Many mean free paths thick, so that most flights end far from any boundary, and inside of spheres, whose distance
   /// is cheap to ask for (RayCaster::has_cheap_clearance).
   bool dense = false;
+  /// Nothing passes straight through its boundary: no line joins the inside with the outside.
+  bool sealed = false;
   float mean_free_path = 0;  ///< the shortest of any channel
 };
 
@@ -98,8 +109,10 @@ class Scene {
   /// Chooses an emitter for next-event estimation, by its power among its like; empty scenes give null. `u` is rescaled
   /// for reuse.
   EmitterChoice choose_emitter(float& u) const;
-  /// Probability that choose_emitter returns the emitter of the object that was hit; 0 when it does not shine.
-  float emitter_prob(const Hit& hit) const { return object_emitter_prob_[hit.shape]; }
+  /// Probability that choose_emitter returns the emitter with this place in emitters().
+  float choice_prob(size_t emitter) const { return emitter_distribution_.prob(emitter); }
+  /// The place in emitters() of the light that was hit; only where one was.
+  size_t emitter_index(const Hit& hit) const { return object_emitter_index_[hit.shape]; }
 
   /// Medium that the sensor stands in: declared by the file, else found by casting a ray (`medium_at`).
   const Medium* sensor_medium() const { return sensor_medium_; }
@@ -120,6 +133,11 @@ class Scene {
   bool has_unbounded_media() const;
   /// What is known about the space that a medium of this scene fills.
   const Surroundings& surroundings(const Medium* medium) const;
+
+  /// No straight line joins a place in the one medium (null: vacuum) with a place in the other.
+  bool separates(const Medium* a, const Medium* b) const {
+    return a != b && ((a && surroundings(a).sealed) || (b && surroundings(b).sealed));
+  }
 
   /// Some surface lets light pass straight on, or may (see MediumStack::hides): shadow rays must walk from surface to
   /// surface.
@@ -142,7 +160,7 @@ class Scene {
   std::unique_ptr<RayCaster> rays_;
   std::vector<const Emitter*> emitters_;
   std::vector<ChosenEnvironment> environments_;
-  std::vector<float> object_emitter_prob_;
+  std::vector<size_t> object_emitter_index_;
   DiscreteDistribution emitter_distribution_;
   const Medium* sensor_medium_ = nullptr;
   std::vector<Surroundings> media_;

@@ -12,6 +12,7 @@ struct SensorRay {
   Ray ray;
   float near_t = 0;
   float weight = 1;  ///< factor of the radiance: 1 for the sensors that exist
+  Vec2 u_aperture{0.5f, 0.5f};  ///< the numbers that chose its origin
 };
 
 /// How light that sets out from some point, or from infinity, reaches the sensor.

@@ -45,7 +45,7 @@ testing::ChiSquareResult test_directions(const AreaLight& sampled, const AreaLig
         const Hit hit = rays.intersect(ray);
         if (!hit) return 0.0;
         const SurfacePoint point = shape->surface_point(ray, hit);
-        return dot(point.ng, w) < 0 ? static_cast<double>(claimed.pdf_direct_w(from, point)) : 0.0;
+        return dot(point.ng, w) < 0 ? static_cast<double>(claimed.pdf_direct_w(from, point.p, point.ng)) : 0.0;
       });
 }
 

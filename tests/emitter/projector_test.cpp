@@ -83,7 +83,7 @@ TEST(Projector, SendsRaysThroughThePicture) {
     ASSERT_TRUE(ray);
     EXPECT_EQ(ray->origin, Vec3(1, 2, 3));
     EXPECT_NEAR(length(ray->direction), 1, 1e-5f);
-    const Spectrum expected = projector.intensity(ray->direction) / Spectrum(ray->pdf_w);
+    const Spectrum expected = projector.intensity(ray->direction) / Spectrum(ray->pdf.pdf_w);
     EXPECT_NEAR(ray->weight[0], expected[0], 1e-4f * expected[2]);
     EXPECT_NEAR(ray->weight[1], expected[1], 1e-4f * expected[2]);
     power += static_cast<double>(ray->weight[0]) / (kSide * kSide);

@@ -40,7 +40,7 @@ ChiSquareResult direct_sampling(const Shape& shape, const Vec3& from, bool plant
       [&](Rng& rng) -> std::optional<Vec3> {
         const auto d = shape.sample_direct(from, random_square(rng));
         if (!d) return std::nullopt;
-        EXPECT_NEAR(d->pdf_w, shape.pdf_direct_w(from, d->point), 1e-3f * d->pdf_w);
+        EXPECT_NEAR(d->pdf_w, shape.pdf_direct_w(from, d->point.p, d->point.ng), 1e-3f * d->pdf_w);
         return normalize(d->point.p - from);
       },
       [&](const Vec3& w) {
@@ -50,7 +50,7 @@ ChiSquareResult direct_sampling(const Shape& shape, const Vec3& from, bool plant
           const Hit hit = caster.intersect(ray);
           if (!hit) break;
           const SurfacePoint s = shape.surface_point(ray, hit);
-          const double p = double(shape.pdf_direct_w(from, s));
+          const double p = double(shape.pdf_direct_w(from, s.p, s.ng));
           if (dynamic_cast<const Sphere*>(&shape) == nullptr || layer == 0) pdf += p;
           ray.origin = s.leave(w);
         }

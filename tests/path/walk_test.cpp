@@ -1,5 +1,5 @@
 // Light paths on their own: what they carry where a closed form says it, and the correction for shading normals.
-#include "path/light_walk.h"
+#include "path/walk.h"
 
 #include <gtest/gtest.h>
 
@@ -25,17 +25,17 @@ std::string fog_ball(float sigma_t) {
 }
 
 /// Sums what arrives in events of each order, and the lengths of the first segments.
-struct Sums {
+struct Sums : WalkRecorder {
   void at_emitter(const Emission& emission, const Traveller&) { emitted += emission.throughput; }
   void at_surface(const SurfaceEvent&, const PathState& state, const Traveller&) { on_surfaces += state.throughput; }
   void at_collision(const CollisionEvent&, const PathState& state, const Traveller&) {
     EXPECT_EQ(state.depth, state.order);
     if (state.order <= 2) collided[state.order - 1] += state.throughput;
   }
-  void at_segment(const Ray& segment, const Medium&, const PathState& state, bool collides) {
+  void on_segment(const Ray& segment, const Medium&, const PathState& state, const Traveller::Leg& leg) {
     if (state.order > 0) return;
     first_length += static_cast<double>(segment.t_max);
-    if (!collides) ++passed;
+    if (!leg.collides) ++passed;
   }
 
   Spectrum emitted{0.0f}, on_surfaces{0.0f}, collided[2] = {Spectrum(0.0f), Spectrum(0.0f)};
@@ -48,10 +48,10 @@ Sums walk(const Scene& scene, const PathSettings& settings = {}) {
   Sampler sampler(SamplerKind::kIndependent, 1);
   SampleCounters counters;
   Sums sums;
-  LightWalk light(scene, sources, settings, sampler, counters, sums);
+  LightWalk<Sums> light(scene, settings, sampler, counters, sums);
   for (uint64_t path = 0; path < kPaths; ++path) {
     sampler.start(path, 0);
-    light.run();
+    light.run(sources);
   }
   EXPECT_EQ(counters.light_paths, uint64_t{kPaths});
   return sums;

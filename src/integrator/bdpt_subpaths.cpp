@@ -1,0 +1,285 @@
+#include "integrator/bdpt_subpaths.h"
+
+namespace turbid {
+namespace {
+
+double to_double(float value) { return static_cast<double>(value); }
+
+float weight_of(double others) { return static_cast<float>(1 / (1 + others)); }
+
+}  // namespace
+
+// --- from a light -----------------------------------------------------------------------------------------------------
+
+void LightSubpath::at_emitter(const Emission& emission, const Traveller& traveller) {
+  emission_ = emission;
+  start_edge();
+  const PathSettings& settings = context_.settings;
+  if (settings.hide_emitters || settings.min_scattering > 0) return;
+  const auto arrival = context_.sensor.arrive_from(emission, traveller);
+  if (!arrival) return;
+  // The only other way to see a light directly is to meet it by chance.
+  const EmissionPdf& pdf = emission.ray.pdf;
+  const bool sky = emission.emitter->is_environment();
+  const float cosine = sky ? 1 : std::abs(dot(emission.ray.ng, normalize(arrival->position - emission.ray.origin)));
+  const double by_chance = to_double(arrival->pdf) * end_factor(Spectrum(1.0f), cosine, arrival->proxy);
+  const double here = to_double(emission.prob) * to_double(sky ? pdf.pdf_w : pdf.pdf_a);
+  sink_->splat(context_.sensor.index_of(arrival->target.pixel), {.value = emission.throughput * arrival->weight,
+                                                                 .weight = weight_of(weights_.power(by_chance / here)),
+                                                                 .light_vertices = 1,
+                                                                 .sensor_vertices = 1});
+}
+
+void LightSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
+  current_ = arrive(event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given)), state);
+  if (event.object.bsdf->flags() & lobe::kSmooth) keep(Vertex(event, state, traveller.medium()), traveller);
+}
+
+void LightSubpath::at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+  const Vertex vertex(event, state);
+  events_ = vertex.events;
+  current_ = arrive(event.position, events_, 1, state);
+  keep(vertex, traveller);
+}
+
+StrategySums LightSubpath::arrive(const Vec3& position, const Spectrum& events, float cosine,
+                                  const PathState& state) const {
+  return state.depth == 1 ? first_sums(position, events, cosine) : sums_at(position, events, cosine);
+}
+
+/// At the first vertex behind the light: next-event estimation from there, and finding the light by chance, against the
+/// start of the walk.
+StrategySums LightSubpath::first_sums(const Vec3& position, const Spectrum& events, float cosine) const {
+  const Emission& emission = *emission_;
+  const Emitter& emitter = *emission.emitter;
+  const EmissionPdf& pdf = emission.ray.pdf;
+  const Vec3& direction = emission.ray.direction;
+  const double arrive = end_factor(events, cosine, straight_);
+  const double prob = to_double(emission.prob), direct_prob = to_double(context_.scene.choice_prob(emission.index));
+  const double through = end_factor(Spectrum(1.0f), 1, straight_);
+  StrategySums sums;
+  if (emitter.is_environment()) {
+    const auto& sky = static_cast<const EnvironmentEmitter&>(emitter);
+    const double here = prob * to_double(pdf.pdf_w);
+    sums.inverse_pdf = 1 / (to_double(pdf.pdf_a) * arrive);
+    sums.joint = weights_.power(direct_prob * to_double(sky.pdf_direct_w(-direction)) / here);
+    sums.behind = weights_.power(through / here);
+  } else if (emission.object) {
+    const auto& lamp = static_cast<const SurfaceEmitter&>(emitter);
+    const double here = prob * to_double(pdf.pdf_a);
+    const double inverse = inverse_square(position, emission.ray.origin);
+    const double back = to_double(std::abs(dot(emission.ray.ng, direction))) * inverse;
+    const double direct_w = to_double(lamp.pdf_direct_w(position, emission.ray.origin, emission.ray.ng));
+    sums.inverse_pdf = 1 / (to_double(pdf.pdf_w) * arrive * inverse);
+    sums.joint = weights_.power(direct_prob * direct_w * back / here);
+    sums.behind = weights_.power(back * through / here);
+  } else {
+    // Cannot be met by chance. Only the choice among lights tells next-event estimation from the walk, whose origin or
+    // direction is given.
+    const bool parallel = pdf.pdf_w == 0;
+    const double density = parallel ? to_double(pdf.pdf_a)
+                                    : to_double(pdf.pdf_w) * inverse_square(position, emission.ray.origin);
+    sums.inverse_pdf = 1 / ((density > 0 ? density : 1) * arrive);
+    sums.joint = emitter.can_be_aimed_at() ? weights_.power(direct_prob / prob) : 0;
+  }
+  return sums;
+}
+
+void LightSubpath::keep(const Vertex& vertex, const Traveller& traveller) {
+  vertices_.push_back(vertex);
+  vertices_.back().sums = current_;
+  if (!context_.settings.order_counts(vertex.order)) return;
+  const auto way = context_.sensor.way_from(vertex.position);
+  if (!way) return;
+  const Vec3 wo = normalize(way->position - vertex.position);
+  const Vertex::Scattering scattered = vertex.scatter(wo, TransportMode::kImportance);
+  const Spectrum flux = vertex.throughput * scattered.value;
+  const SurfaceEvent* surface = nullptr;
+  std::optional<SurfaceEvent> event;
+  if (vertex.is_surface()) surface = &event.emplace(vertex.surface_event());
+  const auto arrival = context_.sensor.arrive(*way, vertex.leave(wo), flux, traveller, surface);
+  if (!arrival) return;
+  const double pdf = to_double(arrival->pdf) * end_factor(vertex, wo, arrival->proxy);
+  sink_->splat(context_.sensor.index_of(arrival->target.pixel),
+               {.value = flux * arrival->weight,
+                .weight = weight_of(weights_.others(current_, pdf, to_double(scattered.pdf_back_w))),
+                .light_vertices = vertex.depth + 1,
+                .sensor_vertices = 1,
+                .order = vertex.order});
+}
+
+// --- from the sensor --------------------------------------------------------------------------------------------------
+
+void SensorSubpath::gather(const Spectrum& value, double others, int light_vertices, int sensor_vertices, int order) {
+  sink_->gather({.value = value,
+                 .weight = weight_of(others),
+                 .light_vertices = light_vertices,
+                 .sensor_vertices = sensor_vertices,
+                 .order = order});
+}
+
+void SensorSubpath::on_segment(const Ray& way, const Medium& medium, const PathState& state,
+                               const Traveller::Leg& leg) {
+  SubpathRecorder::on_segment(way, medium, state, leg);
+  if (!medium.emits() || (state.depth == 0 && context_.settings.hide_emitters)) return;
+  if (!context_.settings.order_counts(state.order)) return;
+  gather(state.throughput * leg.emission, 0, 0, state.depth + 2, state.order);
+}
+
+StrategySums SensorSubpath::arrive(const Vec3& position, const Spectrum& events, float cosine,
+                                   const PathState& state) const {
+  return state.depth == 1 ? first_sums(position, events, cosine) : sums_at(position, events, cosine);
+}
+
+/// At the first vertex: light paths that are joined with the sensor against the sensor's ray.
+StrategySums SensorSubpath::first_sums(const Vec3& position, const Spectrum& events, float cosine) const {
+  const auto way = context_.scene.sensor().connect(position, u_aperture_);
+  if (!way) return {};
+  return {1 / (to_double(context_.sensor.pdf(*way)) * end_factor(events, cosine, straight_)), 1, 0};
+}
+
+void SensorSubpath::at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
+                             const Traveller& traveller) {
+  if (!context_.settings.order_counts(state.order) || (state.depth == 1 && context_.settings.hide_emitters)) return;
+  const SurfaceEmitter& emitter = *object.emitter;
+  const Vec3 wo = -traveller.ray().direction;
+  const Spectrum Le = emitter.Le(point, wo);
+  if (Le.is_black()) return;
+  const size_t index = context_.scene.emitter_index(hit);
+  const float cosine = std::abs(dot(point.ng, wo));
+  const StrategySums sums = arrive(point.p, Spectrum(1.0f), cosine, state);
+  const EmissionPdf emission = emitter.emission_pdf(point.ng, wo);
+  const double start = to_double(context_.sources.prob(index)) * to_double(emission.pdf_a) * sums.inverse_pdf;
+  double others = weights_.power(start);
+  if (state.depth == 1) {
+    others *= sums.joint;
+  } else {
+    const double direct_a = to_double(context_.scene.choice_prob(index)) *
+                            to_double(emitter.pdf_direct_w(last_position_, point.p, point.ng)) * to_double(cosine) *
+                            inverse_square(point.p, last_position_);
+    others = weights_.power(direct_a * sums.inverse_pdf) * sums.joint +
+             others * weights_.power(to_double(emission.pdf_w)) * sums.behind;
+  }
+  gather(state.throughput * Le, others, 0, state.depth + 1, state.order);
+}
+
+void SensorSubpath::at_escape(const PathState& state, const Traveller& traveller) {
+  if (!context_.settings.order_counts(state.order) || (state.depth == 1 && context_.settings.hide_emitters)) return;
+  const Vec3& direction = traveller.ray().direction;
+  const double through = end_factor(Spectrum(1.0f), 1, straight_);
+  for (const ChosenEnvironment& sky : context_.scene.environments()) {
+    const Spectrum Le = sky.emitter->Le(direction);
+    if (Le.is_black()) continue;
+    const EmissionPdf emission = sky.emitter->emission_pdf({}, -direction);
+    const double start = to_double(context_.sources.prob(sky.index)) * to_double(emission.pdf_w);
+    double others = 0;
+    if (state.depth == 1) {
+      if (const auto way = context_.scene.sensor().connect_to_infinity(direction, u_aperture_))
+        others = weights_.power(start / (to_double(context_.sensor.pdf(*way)) * through));
+    } else {
+      const StrategySums sums = weights_.next(last_, departure_, through, back_factor());
+      const double direct_w = to_double(sky.prob) * to_double(sky.emitter->pdf_direct_w(direction));
+      others = weights_.power(direct_w * sums.inverse_pdf) * sums.joint +
+               weights_.power(start * sums.inverse_pdf) * weights_.power(to_double(emission.pdf_a)) * sums.behind;
+    }
+    gather(state.throughput * Le, others, 0, state.depth + 1, state.order);
+  }
+}
+
+void SensorSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
+  current_ = arrive(event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given)), state);
+  if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
+  Vertex vertex(event, state, traveller.medium());
+  vertex.sums = current_;
+  estimate_direct(vertex, traveller);
+  join(vertex, traveller);
+}
+
+void SensorSubpath::at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+  Vertex vertex(event, state);
+  events_ = vertex.events;
+  vertex.sums = current_ = arrive(event.position, events_, 1, state);
+  if (!traveller.blind()) estimate_direct(vertex, traveller);
+  join(vertex, traveller);
+}
+
+void SensorSubpath::estimate_direct(const Vertex& vertex, const Traveller& traveller) {
+  float u_light = sampler_.next_1d();
+  const Vec2 u = sampler_.next_2d();
+  const EmitterChoice choice = context_.scene.choose_emitter(u_light);
+  if (!choice.emitter || !context_.settings.order_counts(vertex.order)) return;
+  const auto light = choice.emitter->sample_direct(vertex.position, u);
+  if (!light) return;
+  const Vertex::Scattering scattered = vertex.scatter(light->wi, TransportMode::kRadiance);
+  const Spectrum towards = vertex.throughput * scattered.value * light->weight / choice.prob;
+  if (towards.is_black()) return;
+  std::optional<SurfaceEvent> event;
+  const SurfaceEvent* surface = vertex.is_surface() ? &event.emplace(vertex.surface_event()) : nullptr;
+  const Passage passage =
+      traveller.look_along(ray_to_light(*light, vertex.leave(light->wi)), Spectrum(1.0f), surface);
+  if (passage.prob == 0) return;
+  gather(towards * passage.transmittance, others_of_direct(vertex, choice, *light, scattered, passage.proxy), 1,
+         vertex.depth + 1, vertex.order);
+}
+
+double SensorSubpath::others_of_direct(const Vertex& vertex, const EmitterChoice& choice,
+                                       const DirectLightSample& light, const Vertex::Scattering& scattered,
+                                       const Spectrum& proxy) const {
+  const Emitter& emitter = *choice.emitter;
+  const EmissionPdf emission = emitter.emission_pdf(light.ng, -light.wi);
+  const double direct = to_double(choice.prob) * (light.delta ? 1 : to_double(light.pdf_w));
+  double others = 0;
+  if (!light.delta)
+    others = weights_.power(to_double(scattered.pdf_w) * end_factor(Spectrum(1.0f), 1, proxy) / direct);
+  // The light's walk starts there and comes here, against asking from here: both over the same point of the light.
+  double walk = to_double(context_.sources.prob(choice.index)) * end_factor(vertex, light.wi, proxy);
+  if (emitter.is_at_infinity()) {
+    walk *= to_double(emission.pdf_a) * (light.delta ? 1 : to_double(emission.pdf_w));
+  } else {
+    walk *= to_double(emission.pdf_w);
+    walk *= light.delta ? inverse_square(vertex.position, light.position)
+                        : to_double(emission.pdf_a) / to_double(std::abs(dot(light.ng, light.wi)));
+  }
+  return others + weights_.others(vertex.sums, walk / direct, to_double(scattered.pdf_back_w));
+}
+
+/// Of the lines that make paths of k edges min(1, connections / k) are taken, systematically: the number does not
+/// depend on how far the light's subpath was followed.
+void SensorSubpath::join(const Vertex& vertex, const Traveller& traveller) {
+  float sum = selection_.next_float();
+  for (const Vertex& light : light_vertices_) {
+    const int edges = vertex.depth + light.depth + 1;
+    const float prob = std::min(1.0f, context_.connections / static_cast<float>(edges));
+    sum += prob;
+    if (sum < 1) continue;
+    sum -= 1;
+    if (edges > context_.settings.max_depth) return;
+    if (context_.settings.order_counts(vertex.order + light.order)) join(vertex, light, prob, traveller);
+  }
+}
+
+void SensorSubpath::join(const Vertex& vertex, const Vertex& light, float prob, const Traveller& traveller) {
+  const Vec3 way = light.position - vertex.position;
+  const double inverse = inverse_square(light.position, vertex.position);
+  const Vec3 wi = way * static_cast<float>(std::sqrt(inverse));
+  if (context_.scene.separates(vertex.medium_towards(wi), light.medium_towards(-wi))) return;
+  const Vertex::Scattering here = vertex.scatter(wi, TransportMode::kRadiance);
+  if (here.value.is_black()) return;
+  const Vertex::Scattering there = light.scatter(-wi, TransportMode::kImportance);
+  if (there.value.is_black()) return;
+  ++context_.counters.connections;
+  std::optional<SurfaceEvent> event;
+  const SurfaceEvent* surface = vertex.is_surface() ? &event.emplace(vertex.surface_event()) : nullptr;
+  const Passage passage =
+      traveller.look_along(line_between(vertex.leave(wi), light.leave(-wi)), Spectrum(1.0f), surface);
+  if (passage.prob == 0) return;
+  const double pdf_of_light = to_double(here.pdf_w) * end_factor(light, wi, passage.proxy) * inverse;
+  const double pdf_of_vertex = to_double(there.pdf_w) * end_factor(vertex, wi, passage.proxy) * inverse;
+  const double others = weights_.others(light.sums, pdf_of_light, to_double(there.pdf_back_w)) +
+                        weights_.others(vertex.sums, pdf_of_vertex, to_double(here.pdf_back_w));
+  const float factor = static_cast<float>(inverse) / prob;
+  gather(vertex.throughput * here.value * passage.transmittance * there.value * light.throughput * factor, others,
+         light.depth + 1, vertex.depth + 1, vertex.order + light.order);
+}
+
+}  // namespace turbid

@@ -1,0 +1,103 @@
+#pragma once
+#include <vector>
+
+#include "integrator/splatting_integrator.h"
+#include "path/sensor_connector.h"
+#include "path/subpath.h"
+
+namespace turbid {
+
+/// What the two subpaths of one worker share.
+struct BdptContext {
+  const Scene& scene;
+  const LightSources& sources;
+  const PathSettings& settings;
+  const StrategyWeights& weights;
+  float connections;  ///< BdptSettings::connections
+  const SensorConnector& sensor;
+  SampleCounters& counters;
+};
+
+/// The subpath from a light: keeps its vertices, and joins each with the sensor (t = 1).
+class LightSubpath : public SubpathRecorder {
+ public:
+  explicit LightSubpath(const BdptContext& context) : SubpathRecorder(context.weights), context_(context) {}
+
+  void begin(ContributionSink& sink) {
+    sink_ = &sink;
+    vertices_.clear();
+  }
+  const std::vector<Vertex>& vertices() const { return vertices_; }
+
+  void at_emitter(const Emission& emission, const Traveller& traveller);
+  void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
+  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState&) {
+    depart(event, sample, chosen, current_, TransportMode::kImportance);
+  }
+  void left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState&, const Traveller&) {
+    depart(event, mu, current_, events_);
+  }
+
+ private:
+  StrategySums arrive(const Vec3& position, const Spectrum& events, float cosine, const PathState& state) const;
+  StrategySums first_sums(const Vec3& position, const Spectrum& events, float cosine) const;
+  void keep(const Vertex& vertex, const Traveller& traveller);
+
+  const BdptContext& context_;
+  ContributionSink* sink_ = nullptr;
+  std::vector<Vertex> vertices_;
+  std::optional<Emission> emission_;
+  StrategySums current_;
+  Spectrum events_;
+};
+
+/// The subpath from the sensor: at each vertex it asks for light (s = 1) and joins the vertices of a light subpath
+/// (s >= 2); lights met by chance are s = 0.
+class SensorSubpath : public SubpathRecorder {
+ public:
+  SensorSubpath(const BdptContext& context, Sampler& sampler, const std::vector<Vertex>& light_vertices)
+      : SubpathRecorder(context.weights), context_(context), sampler_(sampler), light_vertices_(light_vertices) {}
+
+  /// `selection`: names the random choice of connections.
+  void begin(const SensorRay& camera, uint64_t selection, ContributionSink& sink) {
+    sink_ = &sink;
+    u_aperture_ = camera.u_aperture;
+    selection_ = Rng(selection);
+    start_edge();
+  }
+
+  void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg);
+  void at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
+                const Traveller& traveller);
+  void at_escape(const PathState& state, const Traveller& traveller);
+  void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
+  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState&) {
+    depart(event, sample, chosen, current_, TransportMode::kRadiance);
+  }
+  void left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState&, const Traveller&) {
+    depart(event, mu, current_, events_);
+  }
+
+ private:
+  StrategySums arrive(const Vec3& position, const Spectrum& events, float cosine, const PathState& state) const;
+  StrategySums first_sums(const Vec3& position, const Spectrum& events, float cosine) const;
+  void gather(const Spectrum& value, double others, int light_vertices, int sensor_vertices, int order);
+  void estimate_direct(const Vertex& vertex, const Traveller& traveller);
+  double others_of_direct(const Vertex& vertex, const EmitterChoice& choice, const DirectLightSample& light,
+                          const Vertex::Scattering& scattered, const Spectrum& proxy) const;
+  void join(const Vertex& vertex, const Traveller& traveller);
+  void join(const Vertex& vertex, const Vertex& light, float prob, const Traveller& traveller);
+
+  const BdptContext& context_;
+  Sampler& sampler_;
+  const std::vector<Vertex>& light_vertices_;
+  ContributionSink* sink_ = nullptr;
+  Vec2 u_aperture_;
+  Rng selection_;
+  StrategySums current_;
+  Spectrum events_;
+};
+
+}  // namespace turbid

@@ -1,0 +1,81 @@
+#pragma once
+#include <memory>
+#include <mutex>
+
+#include "image/splat_buffer.h"
+#include "integrator/integrator.h"
+#include "path/sample_counters.h"
+
+namespace turbid {
+
+/// A path from a light to the sensor that contributes: how it was put together, and what it carries.
+struct Contribution {
+  Spectrum value;         ///< as if this were the only way to make such paths
+  float weight = 1;       ///< of multiple importance sampling
+  int light_vertices = 0;   ///< made by the walk from the light, the light itself included
+  int sensor_vertices = 0;  ///< made by the walk from the sensor, the sensor included
+  int order = 0;            ///< collisions in media
+
+  int edges() const { return light_vertices + sensor_vertices - 1; }
+};
+
+/// Takes what paths bring.
+class ContributionSink {
+ public:
+  virtual ~ContributionSink() = default;
+  /// To the pixel whose sample is being made.
+  virtual void gather(const Contribution& contribution) = 0;
+  /// To any pixel of the crop window, given by its number.
+  virtual void splat(size_t pixel, const Contribution& contribution) = 0;
+};
+
+/// An integrator whose light paths may reach any pixel. For each sample index there is one light path for every pixel
+/// of the film; the picture that they make together, with what the pixels gather themselves, is one sample of every
+/// pixel: means, variances and passes mean what they mean elsewhere. Sample n of pixel i is named by (seed, n, i);
+/// splats are summed in fixed point: the same bits for any number of threads.
+class SplattingIntegrator : public Integrator {
+ public:
+  /// Finds the scale of the fixed-point sums by a pilot of some thousand paths.
+  void prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) override;
+  bool render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) override;
+  Counters counters() const override;
+  bool split_orders(const std::vector<OrderLayer>& layers) override;
+  std::vector<std::string> layer_names() const override;
+
+  /// Makes samples, one after the other; used by one thread.
+  class Worker {
+   public:
+    virtual ~Worker() = default;
+    /// Sample `index` of pixel `pixel` of the crop window. Returns the sample's alpha.
+    virtual float run(size_t pixel, uint64_t index, ContributionSink& sink) = 0;
+  };
+
+ protected:
+  virtual std::unique_ptr<Worker> make_worker(const Scene& scene, uint64_t seed, SampleCounters& counters) const = 0;
+  /// Once, before any worker: what all of them share.
+  virtual void prepare_workers(const Scene& scene) = 0;
+
+  /// Writes the contributions of all strategies for paths of up to `max_edges` edges into layers of their own, named
+  /// strategy.{weighted,plain}.EDGES.LIGHT_VERTICES.{R,G,B}.
+  void show_strategies(int max_edges) { shown_edges_ = max_edges; }
+
+ private:
+  class PilotSink;
+  class PassSink;
+  struct Splats;
+  /// Layer triple of a strategy, weighted; the plain one follows. Negative: not shown.
+  int strategy_layer(int light_vertices, int edges) const;
+  void add_counters(const SampleCounters& counters);
+
+  std::vector<OrderLayer> order_layers_;
+  int shown_edges_ = 0;
+  int largest_exponent_ = 0;  ///< of the splats of the pilot: they are below 2^largest_exponent
+  mutable std::mutex mutex_;
+  SampleCounters totals_;
+  uint64_t saturated_ = 0;
+};
+
+/// Keeps the random streams of light paths apart from those of pixels.
+inline constexpr uint64_t kLightStream = 0x6c69676874ull;
+
+}  // namespace turbid

@@ -1,0 +1,92 @@
+#include "path/sensor_connector.h"
+
+namespace turbid {
+
+SensorConnector::SensorConnector(const Scene& scene, double paths, Sampler& sampler, SampleCounters& counters)
+    : scene_(scene),
+      film_(scene.film()),
+      crop_(film_.image_size()),
+      // The mean over the film, times its pixels, is the integral over the film in units of pixels.
+      scale_(static_cast<float>(static_cast<double>(film_.size.x) * static_cast<double>(film_.size.y) / paths)),
+      sampler_(sampler),
+      counters_(counters) {}
+
+std::optional<SensorArrival> SensorConnector::arrive(const SensorConnection& way, const Vec3& origin,
+                                                     const Spectrum& flux, const Traveller& traveller,
+                                                     const SurfaceEvent* surface) const {
+  if (flux.is_black()) return std::nullopt;
+  const auto target = target_of(way);
+  if (!target) return std::nullopt;
+  const Vec3 towards = way.position - origin;
+  const float distance = length(towards);
+  const Vec3 wo = towards / distance;
+  const Spectrum near = near_part(way, -wo), arrived = flux * near;
+  // What stands nearer than the near plane is not there.
+  const Ray line{origin, wo, distance - way.near_t};
+  if (arrived.is_black() || !(line.t_max > 0)) return std::nullopt;
+  const Passage passage = traveller.look_along(line, arrived, surface);
+  if (passage.prob == 0) return std::nullopt;
+  return arrival(*target, way, near * passage.transmittance, passage.proxy);
+}
+
+/// Lights with a surface shine alike in all directions of their outside: the radiance that the emitted ray stands for
+/// holds for the way to the sensor too.
+std::optional<SensorArrival> SensorConnector::arrive_from(const Emission& emission, const Traveller& traveller) const {
+  if (emission.emitter->is_environment()) return arrive_from_sky(emission);
+  if (!emission.object) return std::nullopt;
+  const EmissionSample& ray = emission.ray;
+  const auto way = way_from(ray.origin);
+  if (!way) return std::nullopt;
+  const Vec3 wo = normalize(way->position - ray.origin);
+  const float cosine = dot(ray.ng, wo), cosine_of_ray = dot(ray.ng, ray.direction);
+  if (!(cosine > 0) || !(cosine_of_ray > 0)) return std::nullopt;
+  auto result = arrive(*way, ray.origin, emission.throughput, traveller);
+  if (!result) return std::nullopt;
+  result->weight *= ray.pdf.pdf_w / cosine_of_ray * cosine;
+  return result;
+}
+
+/// The sky behind everything: an edge from infinity.
+std::optional<SensorArrival> SensorConnector::arrive_from_sky(const Emission& emission) const {
+  const Vec3 towards = -emission.ray.direction;
+  const auto way = scene_.sensor().connect_to_infinity(towards, sampler_.next_2d());
+  if (!way) return std::nullopt;
+  const auto target = target_of(*way);
+  if (!target) return std::nullopt;
+  Ray line{way->position + towards * way->near_t, towards, way->far_t - way->near_t};
+  // Media without end stop at the end of the world, even if things are visible farther away.
+  if (line.t_max >= scene_.distance_to_world_end(line)) line.t_max = kInfinity;
+  Traveller from_sensor(scene_, true, sampler_, counters_);
+  from_sensor.start(line, scene_.sensor_medium(), scene_.sensor_media());
+  const Spectrum near = near_part(*way, towards), arrived = emission.throughput * near;
+  if (arrived.is_black()) return std::nullopt;
+  const Passage passage = from_sensor.look_along(line, arrived);
+  if (passage.prob == 0) return std::nullopt;
+  return arrival(*target, *way, near * passage.transmittance * emission.ray.pdf.pdf_a, passage.proxy);
+}
+
+SensorArrival SensorConnector::arrival(const SplatTarget& target, const SensorConnection& way, const Spectrum& factor,
+                                       const Spectrum& proxy) const {
+  return {target, factor * (way.importance * target.weight * scale_), pdf(way), proxy, way.position};
+}
+
+Spectrum SensorConnector::near_part(const SensorConnection& way, const Vec3& direction) const {
+  const Medium* medium = way.near_t > 0 ? scene_.sensor_medium() : nullptr;
+  if (!medium) return Spectrum(1.0f);
+  return medium->transmittance({way.position, direction, way.near_t}, sampler_);
+}
+
+std::optional<SplatTarget> SensorConnector::target_of(const SensorConnection& way) const {
+  const Vec2 position(way.film.x * static_cast<float>(film_.size.x) - static_cast<float>(film_.crop_offset.x),
+                      way.film.y * static_cast<float>(film_.size.y) - static_cast<float>(film_.crop_offset.y));
+  const float support = film_.filter.support();
+  const bool near = position.x >= -support && position.x <= static_cast<float>(crop_.x) + support &&
+                    position.y >= -support && position.y <= static_cast<float>(crop_.y) + support;
+  if (!near) return std::nullopt;
+  const SplatTarget target = choose_pixel(film_.filter, position, sampler_.next_2d());
+  const Vec2i& pixel = target.pixel;
+  if (target.weight == 0 || pixel.x < 0 || pixel.y < 0 || pixel.x >= crop_.x || pixel.y >= crop_.y) return std::nullopt;
+  return target;
+}
+
+}  // namespace turbid

@@ -1,0 +1,65 @@
+#pragma once
+#include <optional>
+
+#include "image/splat_buffer.h"
+#include "path/light_sources.h"
+#include "path/traveller.h"
+
+namespace turbid {
+
+/// How light that sets out towards the sensor arrives there.
+struct SensorArrival {
+  SplatTarget target;  ///< a pixel of the crop window
+  Spectrum weight;     ///< of flux per solid angle (W/sr) in the pixel's value, in a picture made from `paths` paths
+  /// Density with which sensor rays through the film choose the line, in units of one ray per pixel for each light
+  /// path: per area across it at the far end, or 1/sr for light from infinity.
+  float pdf = 0;
+  Spectrum proxy;  ///< Passage::proxy of the line
+  Vec3 position;   ///< on the aperture
+};
+
+/// Joins points of light paths with the sensor, and finds the pixels that see them.
+class SensorConnector {
+ public:
+  /// `paths`: how many light paths make one picture.
+  SensorConnector(const Scene& scene, double paths, Sampler& sampler, SampleCounters& counters);
+
+  /// The way to the aperture; takes two numbers. Empty where the sensor does not look.
+  std::optional<SensorConnection> way_from(const Vec3& p) const {
+    return scene_.sensor().connect(p, sampler_.next_2d());
+  }
+
+  /// Follows a way_from a point. `traveller` stands there; `surface` if it is one, `origin` lies off it. `flux`: what
+  /// sets out, any scale; black flux never arrives. Takes two numbers for the pixel.
+  std::optional<SensorArrival> arrive(const SensorConnection& way, const Vec3& origin, const Spectrum& flux,
+                                      const Traveller& traveller, const SurfaceEvent* surface = nullptr) const;
+
+  /// A light seen directly: a surface that shines, or the sky. The weight is that of the emission's throughput. Empty
+  /// for lights that are no sight.
+  std::optional<SensorArrival> arrive_from(const Emission& emission, const Traveller& traveller) const;
+
+  const Vec2i& size() const { return crop_; }
+  size_t index_of(const Vec2i& pixel) const {
+    return static_cast<size_t>(pixel.y) * static_cast<size_t>(crop_.x) + static_cast<size_t>(pixel.x);
+  }
+
+  /// Density of sensor rays (SensorArrival::pdf) from the importance of a connection.
+  float pdf(const SensorConnection& way) const { return way.importance * scale_; }
+
+ private:
+  std::optional<SensorArrival> arrive_from_sky(const Emission& emission) const;
+  std::optional<SplatTarget> target_of(const SensorConnection& way) const;
+  SensorArrival arrival(const SplatTarget& target, const SensorConnection& way, const Spectrum& factor,
+                        const Spectrum& proxy) const;
+  /// Attenuation between the sensor and its near plane.
+  Spectrum near_part(const SensorConnection& way, const Vec3& direction) const;
+
+  const Scene& scene_;
+  const FilmSettings& film_;
+  Vec2i crop_;
+  float scale_;  ///< pixels of the whole film per light path
+  Sampler& sampler_;
+  SampleCounters& counters_;
+};
+
+}  // namespace turbid

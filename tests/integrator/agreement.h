@@ -1,0 +1,52 @@
+#pragma once
+#include <array>
+#include <optional>
+
+#include "image/z_test.h"
+#include "integrator/rendering.h"
+
+namespace turbid::testing {
+
+/// Two-estimator z-tests between integrators over passes, in blocks of pixels (NUMERICS 10): for the whole picture and
+/// for each class of scattering order.
+
+inline constexpr uint32_t kPasses = 32;
+
+/// An integrator as it is named on the command line ("bdpt,heuristic=balance"), and its samples per pass.
+struct Contestant {
+  std::string integrator;
+  uint32_t samples = 32;
+  double brightness = 1;  ///< other than 1: a planted error
+  uint64_t seed = 1;
+};
+
+/// What one contestant saw.
+struct Observation {
+  PassStatistics all;
+  std::array<PassStatistics, kOrderClasses> orders;
+  std::vector<bool> specular_blocks;  ///< blocks in which the sensor looks straight at a specular surface
+  PathSupport support;
+};
+
+/// Renders kPasses passes. Dropped samples and saturated splats are failures.
+Observation observe(const std::string& xml, const Contestant& contestant);
+
+/// The comparison of two observations: one verdict for all light (index 0) and for each class of order (1 + class);
+/// empty where neither saw anything. `cannot`: why nothing can be compared.
+struct Agreement {
+  std::string cannot;
+  size_t blocks = 0;  ///< compared; the others show what one of the two cannot sample
+  std::array<std::optional<ZTestResult>, 1 + kOrderClasses> verdicts;
+  std::array<double, 1 + kOrderClasses> mean_ratio{};  ///< second over first
+  std::array<double, 1 + kOrderClasses> ratio_error{}; ///< its standard error
+
+  bool accepted() const;
+  std::string report() const;
+};
+Agreement compare(const Observation& first, const Observation& second);
+
+/// Asserts that two integrators agree on a scene, and that the comparison says something.
+void expect_agreement(const std::string& xml, const Contestant& first, const Contestant& second,
+                      double largest_error = 0.05);
+
+}  // namespace turbid::testing
