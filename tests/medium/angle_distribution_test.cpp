@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/parallel.h"
+#include "medium/half_henyey_greenstein.h"
 #include "medium/henyey_greenstein.h"
 #include "medium/isotropic.h"
 #include "medium/phases_for_tests.h"
@@ -82,6 +83,10 @@ TEST(AngleDistribution, HasTheMomentsOfClosedForms) {
   EXPECT_NEAR(total(IsotropicPhase()), std::numbers::pi * std::numbers::pi / 4, 1e-6);
   EXPECT_NEAR(total(HenyeyGreensteinPhase(0.9f)), 1.07475, 1e-5);
   EXPECT_NEAR(total(HenyeyGreensteinPhase(0.98f)), 1.01431, 1e-5);
+  // Isotropic in a hemisphere: f = 1 / (2 pi), int theta dtheta = pi^2 / 8 forward and 3 pi^2 / 8 backward.
+  using Half = HalfHenyeyGreensteinPhase;
+  EXPECT_NEAR(total(Half(0, Half::Hemisphere::kForward)), std::numbers::pi * std::numbers::pi / 8, 1e-6);
+  EXPECT_NEAR(total(Half(0, Half::Hemisphere::kBackward)), 3 * std::numbers::pi * std::numbers::pi / 8, 1e-6);
 }
 
 TEST(AngleDistribution, MakesTheWeightConstant) {

@@ -5,10 +5,13 @@
 #include <numbers>
 
 #include "medium/blend_phase.h"
+#include "medium/draine.h"
+#include "medium/half_henyey_greenstein.h"
 #include "medium/henyey_greenstein.h"
 #include "medium/isotropic.h"
 #include "medium/rayleigh.h"
 #include "medium/tabulated_phase.h"
+#include "medium/two_term_henyey_greenstein.h"
 
 namespace turbid::testing {
 namespace {
@@ -26,6 +29,15 @@ std::vector<NamedPhase> make_all() {
   result.push_back({"table of 2", std::make_shared<TabulatedPhase>(std::array{0.0f, 3.0f})});
   result.push_back({"table", std::make_shared<TabulatedPhase>(std::array{2.0f, 0.5f, 0.0f, 0.0f, 1.0f, 6.0f})});
 
+  for (const std::string& preset : two_term_presets())
+    result.push_back({preset, std::make_shared<TwoTermHenyeyGreensteinPhase>(two_term_preset(preset)), false});
+  for (const float g : {-0.99f, -0.5f, -1e-3f, 0.0f, 1e-4f, 0.5f, 0.95f, 0.999f}) {
+    using Half = HalfHenyeyGreensteinPhase;
+    result.push_back({"forward_hg " + std::to_string(g), std::make_shared<Half>(g, Half::Hemisphere::kForward)});
+    result.push_back({"backward_hg " + std::to_string(g), std::make_shared<Half>(g, Half::Hemisphere::kBackward)});
+  }
+  for (const auto& [g, alpha] : {std::pair{0.0f, 1.0f}, {-0.6f, 3.0f}, {1e-5f, 250.0f}, {0.55f, 22.0f}, {0.98f, 1.0f}})
+    result.push_back({"draine " + std::to_string(g), std::make_shared<DrainePhase>(g, alpha), g >= 0});
   return result;
 }
 
