@@ -6,6 +6,7 @@
 
 #include "medium/blend_phase.h"
 #include "medium/draine.h"
+#include "medium/fournier_forand.h"
 #include "medium/half_henyey_greenstein.h"
 #include "medium/henyey_greenstein.h"
 #include "medium/isotropic.h"
@@ -38,6 +39,9 @@ std::vector<NamedPhase> make_all() {
   }
   for (const auto& [g, alpha] : {std::pair{0.0f, 1.0f}, {-0.6f, 3.0f}, {1e-5f, 250.0f}, {0.55f, 22.0f}, {0.98f, 1.0f}})
     result.push_back({"draine " + std::to_string(g), std::make_shared<DrainePhase>(g, alpha), g >= 0});
+  for (const auto& [n, slope] : {std::pair{1.10, 3.5835}, {1.021, 3.0742}, {1.15, 4.874}})
+    result.push_back({"fournier_forand " + std::to_string(n),
+                      std::make_shared<FournierForandPhase>(FournierForandPhase::Parameters{n, slope})});
   return result;
 }
 
