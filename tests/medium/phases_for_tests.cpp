@@ -10,6 +10,8 @@
 #include "medium/half_henyey_greenstein.h"
 #include "medium/henyey_greenstein.h"
 #include "medium/isotropic.h"
+#include "medium/mie.h"
+#include "medium/mie_fit.h"
 #include "medium/rayleigh.h"
 #include "medium/tabulated_phase.h"
 #include "medium/two_term_henyey_greenstein.h"
@@ -39,9 +41,14 @@ std::vector<NamedPhase> make_all() {
   }
   for (const auto& [g, alpha] : {std::pair{0.0f, 1.0f}, {-0.6f, 3.0f}, {1e-5f, 250.0f}, {0.55f, 22.0f}, {0.98f, 1.0f}})
     result.push_back({"draine " + std::to_string(g), std::make_shared<DrainePhase>(g, alpha), g >= 0});
+  for (const float diameter : {0.08f, 0.7f, 3.0f, 10.0f, 50.0f})
+    result.push_back({"mie_fit " + std::to_string(diameter), std::make_shared<MieFitPhase>(diameter), false});
   for (const auto& [n, slope] : {std::pair{1.10, 3.5835}, {1.021, 3.0742}, {1.15, 4.874}})
     result.push_back({"fournier_forand " + std::to_string(n),
                       std::make_shared<FournierForandPhase>(FournierForandPhase::Parameters{n, slope})});
+  for (const auto& [radius, deviation] : {std::pair{0.02, 0.0}, {0.5, 0.0}, {5.0, 0.1}, {20.0, 0.0}})
+    result.push_back({"mie " + std::to_string(radius),
+                      std::make_shared<MiePhase>(MiePhase::Parameters{.radius = radius, .deviation = deviation})});
   return result;
 }
 
