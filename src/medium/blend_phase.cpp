@@ -17,4 +17,11 @@ float BlendPhase::sample(float u) const {
   return first_->sample(std::min((u - w_) / (1 - w_), kOneMinusEpsilon));
 }
 
+std::vector<float> BlendPhase::landmarks() const {
+  std::vector<float> both = first_->landmarks();
+  const std::vector<float> others = second_->landmarks();
+  both.insert(both.end(), others.begin(), others.end());
+  return both;
+}
+
 }  // namespace turbid

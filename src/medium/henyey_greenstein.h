@@ -11,16 +11,16 @@ namespace turbid {
 /// Both functions are written in a = |g| and m = sign(g) mu, in a form without cancellation, so that one formula serves
 /// from g = 0 (where it is the isotropic one) up to |g| -> 1. What remains is the resolution of mu itself: the peak is
 /// (1 - a)^2 wide in 1 - m, and a float mu next to 1 has steps of 6e-8, so beyond |g| = 0.999 most deflections round to
-/// 0.
+/// 0. eval_angle() resolves them.
 class HenyeyGreensteinPhase final : public PhaseFunction {
  public:
   /// Throws std::invalid_argument unless -1 < g < 1.
   explicit HenyeyGreensteinPhase(float g);
 
-  float eval(float mu) const override {
-    // 1 + g^2 - 2 g mu = (1 - a)^2 + 2 a (1 - m)
-    const float squared = sqr(one_minus_a_) + two_a_ * (1 - sign_ * mu);
-    return numerator_ / (squared * std::sqrt(squared));
+  float eval(float mu) const override { return at(1 - sign_ * mu); }
+
+  float eval_angle(float theta) const override {
+    return at(2 * sqr(sign_ > 0 ? std::sin(theta / 2) : std::cos(theta / 2)));
   }
 
   /// Inverts the CDF. With D = 1 - a + 2 a u the textbook's m = (1 + a^2 - ((1 - a^2) / D)^2) / (2 a) becomes
@@ -34,6 +34,12 @@ class HenyeyGreensteinPhase final : public PhaseFunction {
   float mean_cosine() const override { return g_; }
 
  private:
+  float at(float one_minus_m) const {
+    // 1 + g^2 - 2 g mu = (1 - a)^2 + 2 a (1 - m)
+    const float squared = sqr(one_minus_a_) + two_a_ * one_minus_m;
+    return numerator_ / (squared * std::sqrt(squared));
+  }
+
   float g_, sign_, two_a_, one_minus_a_, numerator_;
 };
 

@@ -50,4 +50,12 @@ float TabulatedPhase::sample(float u) const {
   return static_cast<float>(std::min(-1 + width * (static_cast<double>(i) + t), 1.0));
 }
 
+std::vector<float> TabulatedPhase::landmarks() const {
+  std::vector<float> angles;
+  const double width = 2 / static_cast<double>(density_.size() - 1);
+  for (size_t i = 1; i + 1 < density_.size(); ++i)
+    angles.push_back(static_cast<float>(std::acos(-1 + width * static_cast<double>(i))));
+  return angles;
+}
+
 }  // namespace turbid

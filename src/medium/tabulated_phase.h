@@ -20,6 +20,7 @@ class TabulatedPhase final : public PhaseFunction {
   /// Exact inversion of the piecewise quadratic CDF.
   float sample(float u) const override;
   float mean_cosine() const override { return mean_cosine_; }
+  std::vector<float> landmarks() const override;
 
  private:
   std::vector<float> density_;  ///< f at the nodes, 1/sr

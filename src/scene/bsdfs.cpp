@@ -1,5 +1,6 @@
 // BSDFs: what surfaces do to light. Parameters and defaults are Mitsuba 3's.
 #include "scene/builder.h"
+#include "scene/index_reader.h"
 #include "surface/blend.h"
 #include "surface/bump_map.h"
 #include "surface/conductor.h"
@@ -57,16 +58,6 @@ const Parameters kMetal = {
     {"eta", kTexture, kOptional, "real part of the index of refraction", kNonNegative},
     {"k", kTexture, kOptional, "imaginary part of the index of refraction", kNonNegative},
     kReflectanceFactor};
-
-/// An index of refraction: a number or the name of a material.
-float index_of(const Properties& p, const std::string& name) {
-  if (!p.is_string(name)) return p.number(name);
-  const std::string material = p.string(name);
-  if (const auto index = find_index(material)) return *index;
-  std::vector<std::string> names;
-  for (const NamedIndex& known : named_indices()) names.push_back(known.name);
-  p.refuse(name, "names the unknown material '" + material + "'" + suggestion(material, names));
-}
 
 struct Metal {
   TexturePtr eta, k;

@@ -9,70 +9,32 @@
 #include "medium/blend_phase.h"
 #include "medium/henyey_greenstein.h"
 #include "medium/isotropic.h"
+#include "medium/phases_for_tests.h"
 #include "medium/rayleigh.h"
 #include "medium/tabulated_phase.h"
-#include "testing/chi_square.h"
 
 namespace turbid {
 namespace {
 
-using testing::chi_square_interval;
-using testing::integrate_interval;
+using testing::all_phase_functions;
+using testing::moment;
+using testing::test_samples;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// 2 pi int weight(mu) f(mu) dmu, with the two ends refined, where peaks stand.
-double moment(const PhaseFunction& phase, const std::function<double(double)>& weight) {
-  const auto integrand = [&](double mu) {
-    return kTwoPi * weight(mu) * static_cast<double>(phase.eval(static_cast<float>(mu)));
-  };
-  double sum = 0;
-  double inner = 0;
-  for (double outer = 1; outer > 1e-9; outer = inner == 0 ? 0 : inner) {
-    inner = outer > 1e-6 ? outer / 4 : 0;
-    sum += integrate_interval(integrand, 1 - outer, 1 - inner, 1e-8, 3, 10);
-    sum += integrate_interval(integrand, -1 + inner, -1 + outer, 1e-8, 3, 10);
-    if (inner == 0) break;
-  }
-  return sum;
-}
-
-testing::ChiSquareResult test_samples(const PhaseFunction& sampled, const PhaseFunction& claimed) {
-  return chi_square_interval(
-      [&](Rng& rng) -> std::optional<double> { return static_cast<double>(sampled.sample(rng.next_float())); },
-      [&](double mu) { return kTwoPi * static_cast<double>(claimed.eval(static_cast<float>(mu))); }, -1, 1);
-}
-
-struct Named {
-  std::string name;
-  std::shared_ptr<const PhaseFunction> phase;
-};
-
-std::vector<Named> all_phase_functions() {
-  std::vector<Named> result{{"isotropic", std::make_shared<IsotropicPhase>()},
-                            {"rayleigh", std::make_shared<RayleighPhase>()}};
-  for (const float g : {-0.99f, -0.9f, -0.5f, -1e-3f, -1e-6f, 0.0f, 1e-7f, 1e-4f, 0.01f, 0.3f, 0.7f, 0.9f, 0.99f})
-    result.push_back({"hg " + std::to_string(g), std::make_shared<HenyeyGreensteinPhase>(g)});
-  result.push_back({"blend", std::make_shared<BlendPhase>(std::make_shared<HenyeyGreensteinPhase>(0.8f),
-                                                          std::make_shared<HenyeyGreensteinPhase>(-0.3f), 0.25f)});
-  result.push_back({"table of 2", std::make_shared<TabulatedPhase>(std::array{0.0f, 3.0f})});
-  result.push_back({"table", std::make_shared<TabulatedPhase>(std::array{2.0f, 0.5f, 0.0f, 0.0f, 1.0f, 6.0f})});
-  return result;
-}
-
 TEST(PhaseFunction, IntegratesToOne) {
-  for (const auto& [name, phase] : all_phase_functions())
+  for (const auto& [name, phase, grows] : all_phase_functions())
     EXPECT_NEAR(moment(*phase, [](double) { return 1.0; }), 1, 2e-5) << name;
 }
 
 TEST(PhaseFunction, HasTheMeanCosineItClaims) {
-  for (const auto& [name, phase] : all_phase_functions())
+  for (const auto& [name, phase, grows] : all_phase_functions())
     EXPECT_NEAR(moment(*phase, [](double mu) { return mu; }), static_cast<double>(phase->mean_cosine()), 2e-5) << name;
 }
 
 TEST(PhaseFunction, IsSampledAsItSays) {
   const auto all = all_phase_functions();
-  for (const auto& [name, phase] : all) {
+  for (const auto& [name, phase, grows] : all) {
     const auto result = test_samples(*phase, *phase);
     EXPECT_TRUE(passes(result, static_cast<int>(all.size()))) << name << ": " << result.report;
   }
@@ -86,18 +48,33 @@ TEST(PhaseFunction, PlantedErrorsAreFound) {
 }
 
 TEST(PhaseFunction, SamplesStayInRangeAndGrowWithU) {
-  for (const auto& [name, phase] : all_phase_functions()) {
-    if (name == "blend") continue;  // grows within each half only
+  for (const auto& [name, phase, grows] : all_phase_functions()) {
     float last = -1;
     for (int i = 0; i <= 1000; ++i) {
       const float mu = phase->sample(std::min(static_cast<float>(i) / 1000, kOneMinusEpsilon));
       ASSERT_GE(mu, -1) << name;
       ASSERT_LE(mu, 1) << name;
-      if (name.starts_with("hg -")) continue;  // falls with u: the formula is mirrored
+      if (!grows) continue;
       ASSERT_GE(mu, last - 1e-6f) << name << " at " << i;
       last = mu;
     }
   }
+}
+
+TEST(PhaseFunction, IsTheSameByAngleAsByCosine) {
+  for (const auto& [name, phase, grows] : all_phase_functions())
+    for (float theta = 0.1f; theta < 3.05f; theta += 0.0373f) {
+      const float by_angle = phase->eval_angle(theta), by_cosine = phase->eval(std::cos(theta));
+      EXPECT_NEAR(by_cosine, by_angle, 2e-4f * by_angle) << name << " at " << theta;
+    }
+}
+
+TEST(PhaseFunction, IsFiniteAtBothEnds) {
+  for (const auto& [name, phase, grows] : all_phase_functions())
+    for (const float mu : {-1.0f, 1.0f}) {
+      EXPECT_TRUE(std::isfinite(phase->eval(mu)) && phase->eval(mu) >= 0) << name;
+      EXPECT_NEAR(phase->eval_angle(mu > 0 ? 0 : kPi), phase->eval(mu), 1e-5f * phase->eval(mu)) << name;
+    }
 }
 
 /// The textbook formula in long double.
@@ -111,6 +88,18 @@ TEST(HenyeyGreenstein, KeepsItsDigitsEverywhere) {
     for (const float mu : {-1.0f, -0.999999f, -0.5f, 0.0f, 0.5f, 0.999999f, 1.0f}) {
       const double expected = reference_hg(static_cast<double>(g), static_cast<double>(mu));
       EXPECT_NEAR(static_cast<double>(HenyeyGreensteinPhase(g).eval(mu)) / expected, 1, 1e-6) << g << ' ' << mu;
+    }
+}
+
+TEST(HenyeyGreenstein, KeepsItsDigitsByAngle) {
+  // 1 - mu = 2 sin^2(theta/2), in long double.
+  for (const float g : {-0.9999f, -0.9f, 0.0f, 0.9f, 0.999f, 0.99999f})
+    for (const float theta : {0.0f, 1e-6f, 1e-5f, 1e-4f, 1e-3f, 0.1f, 2.0f, 3.1f, 3.14159f}) {
+      const long double gl = g, half = std::sin(static_cast<long double>(theta) / 2);
+      const long double squared = (1 - gl) * (1 - gl) + 4 * gl * half * half;
+      const long double expected = (1 - gl * gl) / (4 * std::numbers::pi_v<long double> * squared * std::sqrt(squared));
+      EXPECT_NEAR(static_cast<double>(HenyeyGreensteinPhase(g).eval_angle(theta) / expected), 1, 2e-6)
+          << g << ' ' << theta;
     }
 }
 
