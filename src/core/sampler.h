@@ -20,10 +20,22 @@ class Sampler {
 
   /// Begins sample `index` of pixel `pixel` (any number that names it uniquely).
   void start(uint64_t pixel, uint64_t index) {
-    rng_ = Rng(hash_counters(seed_, pixel, index));
+    name_ = hash_counters(seed_, pixel, index);
+    rng_ = Rng(name_);
     index_ = static_cast<uint32_t>(index);
     dimension_ = 0;
     if (kind_ == SamplerKind::kSobol) scramble_ = hash_counters(seed_, pixel);
+  }
+
+  /// Random numbers for questions beside the path: about the light that comes along a line, about the way to the sensor
+  /// from a place. They depend on the sample and on the place and direction alone, not on what was drawn before: so
+  /// what is asked, or left out, changes nothing else.
+  Rng aside(const Vec3& place, const Vec3& direction = Vec3(0)) const {
+    const auto bits = [](float a, float b) {
+      return uint64_t{std::bit_cast<uint32_t>(a)} << 32 | std::bit_cast<uint32_t>(b);
+    };
+    return Rng(
+        hash_counters(name_, bits(place.x, place.y), bits(place.z, direction.x), bits(direction.y, direction.z)));
   }
 
   float next_1d() { return kind_ == SamplerKind::kIndependent ? rng_.next_float() : sobol_1d(); }
@@ -43,6 +55,7 @@ class Sampler {
 
   SamplerKind kind_;
   uint64_t seed_;
+  uint64_t name_ = 0;  ///< of the sample
   Rng rng_;
   uint64_t scramble_ = 0;
   uint32_t index_ = 0, dimension_ = 0;

@@ -7,7 +7,10 @@
 namespace turbid {
 
 CollimatedBeam::CollimatedBeam(const Transform& to_world, const Spectrum& power, float radius)
-    : center_(to_world.point(Vec3(0))), axis_(normalize(to_world.vector(Vec3(0, 0, 1)))), power_(power), radius_(radius) {
+    : center_(to_world.point(Vec3(0))),
+      axis_(normalize(to_world.vector(Vec3(0, 0, 1)))),
+      power_(power),
+      radius_(radius) {
   if (!(radius >= 0) || !std::isfinite(radius))
     throw std::invalid_argument("the radius of a collimated beam must be finite and not negative");
 }

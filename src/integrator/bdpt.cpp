@@ -31,8 +31,7 @@ class Tracer final : public SplattingIntegrator::Worker {
 
     const auto width = static_cast<size_t>(connector_.size().x);
     const Vec2i in_crop(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
-    const SensorRay camera =
-        start_camera_sample(scene_, in_crop + scene_.film().crop_offset, index, sensor_sampler_);
+    const SensorRay camera = start_camera_sample(scene_, in_crop + scene_.film().crop_offset, index, sensor_sampler_);
     sensor_.begin(camera, hash_counters(seed_, kSelectionStream, pixel, index), sink);
     ++context_.counters.camera_samples;
     return sensor_walk_.run(camera);

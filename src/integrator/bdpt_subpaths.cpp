@@ -9,7 +9,8 @@ float weight_of(double others) { return static_cast<float>(1 / (1 + others)); }
 
 }  // namespace
 
-// --- from a light -----------------------------------------------------------------------------------------------------
+// --- from a light
+// -----------------------------------------------------------------------------------------------------
 
 void LightSubpath::at_emitter(const Emission& emission, const Traveller& traveller) {
   emission_ = emission;
@@ -77,8 +78,8 @@ StrategySums LightSubpath::first_sums(const Vec3& position, const Spectrum& even
     // Cannot be met by chance. Only the choice among lights tells next-event estimation from the walk, whose origin or
     // direction is given.
     const bool parallel = pdf.pdf_w == 0;
-    const double density = parallel ? to_double(pdf.pdf_a)
-                                    : to_double(pdf.pdf_w) * inverse_square(position, emission.ray.origin);
+    const double density =
+        parallel ? to_double(pdf.pdf_a) : to_double(pdf.pdf_w) * inverse_square(position, emission.ray.origin);
     sums.inverse_pdf = 1 / ((density > 0 ? density : 1) * arrive);
     sums.joint = emitter.can_be_aimed_at() ? weights_.power(direct_prob / prob) : 0;
   }
@@ -108,7 +109,8 @@ void LightSubpath::keep(const Vertex& vertex, const Traveller& traveller) {
                 .order = vertex.order});
 }
 
-// --- from the sensor --------------------------------------------------------------------------------------------------
+// --- from the sensor
+// --------------------------------------------------------------------------------------------------
 
 void SensorSubpath::gather(const Spectrum& value, double others, int light_vertices, int sensor_vertices, int order) {
   sink_->gather({.value = value,
@@ -215,8 +217,7 @@ void SensorSubpath::estimate_direct(const Vertex& vertex, const Traveller& trave
   if (towards.is_black()) return;
   std::optional<SurfaceEvent> event;
   const SurfaceEvent* surface = vertex.is_surface() ? &event.emplace(vertex.surface_event()) : nullptr;
-  const Passage passage =
-      traveller.look_along(ray_to_light(*light, vertex.leave(light->wi)), Spectrum(1.0f), surface);
+  const Passage passage = traveller.look_along(ray_to_light(*light, vertex.leave(light->wi)), Spectrum(1.0f), surface);
   if (passage.prob == 0) return;
   gather(towards * passage.transmittance, others_of_direct(vertex, choice, *light, scattered, passage.proxy), 1,
          vertex.depth + 1, vertex.order);
@@ -229,8 +230,7 @@ double SensorSubpath::others_of_direct(const Vertex& vertex, const EmitterChoice
   const EmissionPdf emission = emitter.emission_pdf(light.ng, -light.wi);
   const double direct = to_double(choice.prob) * (light.delta ? 1 : to_double(light.pdf_w));
   double others = 0;
-  if (!light.delta)
-    others = weights_.power(to_double(scattered.pdf_w) * end_factor(Spectrum(1.0f), 1, proxy) / direct);
+  if (!light.delta) others = weights_.power(to_double(scattered.pdf_w) * end_factor(Spectrum(1.0f), 1, proxy) / direct);
   // The light's walk starts there and comes here, against asking from here: both over the same point of the light.
   double walk = to_double(context_.sources.prob(choice.index)) * end_factor(vertex, light.wi, proxy);
   if (emitter.is_at_infinity()) {

@@ -68,8 +68,7 @@ IntegratorSetup make_bdpt(const Properties& properties) {
 /// Integrators of Mitsuba 0.6 that make the picture of volpath in another way. Whoever adds one takes it off the list.
 std::map<std::string, std::string> advice_for_old_names() {
   std::map<std::string, std::string> advice;
-  for (const char* name :
-       {"photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "vpl", "adaptive", "irrcache"})
+  for (const char* name : {"photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "vpl", "adaptive", "irrcache"})
     advice[name] = "'volpath' makes the same picture by path tracing (--integrator volpath)";
   return advice;
 }
@@ -110,12 +109,18 @@ Table make_table() {
            "each other",
            with_common({{"heuristic", ParameterType::kString, "power",
                          "how the ways to make a path share it: power or balance"},
-                        {"connections", ParameterType::kFloat, "8",
-                         "about how many of the joining lines are tried for paths of one length", {.min = 1}},
+                        {"connections",
+                         ParameterType::kFloat,
+                         "8",
+                         "about how many of the joining lines are tried for paths of one length",
+                         {.min = 1}},
                         {"visualize_strategies", ParameterType::kBoolean, "false",
                          "writes what each way contributes as layers strategy.weighted.K.S and strategy.plain.K.S: K "
                          "edges, S vertices from the light"},
-                        {"visualize_depth", ParameterType::kInteger, "6", "most edges of the paths in these layers",
+                        {"visualize_depth",
+                         ParameterType::kInteger,
+                         "6",
+                         "most edges of the paths in these layers",
                          {.min = 1, .max = 16}}}),
            make_bdpt},
           {"moment",

@@ -46,10 +46,9 @@ class LightSplatter : public WalkRecorder {
  private:
   void splat(const std::optional<SensorArrival>& arrival, const Spectrum& flux, int light_vertices, int order) {
     if (!arrival) return;
-    sink_->splat(connector_.index_of(arrival->target.pixel), {.value = flux * arrival->weight,
-                                                              .light_vertices = light_vertices,
-                                                              .sensor_vertices = 1,
-                                                              .order = order});
+    sink_->splat(
+        connector_.index_of(arrival->target.pixel),
+        {.value = flux * arrival->weight, .light_vertices = light_vertices, .sensor_vertices = 1, .order = order});
   }
 
   const PathSettings& settings_;

@@ -18,8 +18,7 @@ class ParticleTracer : public SplattingIntegrator {
   explicit ParticleTracer(const PathSettings& settings) : settings_(settings) {}
 
   PathSupport support() const override {
-    return {
-        .specular_at_sensor = false, .specular_at_delta_light = true, .beams = true, .glowing_media = false};
+    return {.specular_at_sensor = false, .specular_at_delta_light = true, .beams = true, .glowing_media = false};
   }
 
  protected:

@@ -68,8 +68,9 @@ class LightGatherer : public WalkRecorder {
     const Spectrum Le = emitter.Le(point, -traveller.ray().direction);
     if (Le.is_black()) return;
     gather(state, Le * hit_weight([&] {
-             return scene_.choice_prob(scene_.emitter_index(hit)) * emitter.pdf_direct_w(last_position_, point.p, point.ng);
-           }));
+                    return scene_.choice_prob(scene_.emitter_index(hit)) *
+                           emitter.pdf_direct_w(last_position_, point.p, point.ng);
+                  }));
   }
   void at_escape(const PathState& state, const Traveller& traveller) {
     if (state.depth == 1 && settings_.hide_emitters) return;

@@ -12,7 +12,7 @@
 namespace turbid {
 namespace {
 
-constexpr size_t kGrain = 256;  ///< samples per task
+constexpr size_t kGrain = 64;  ///< samples per task
 constexpr uint64_t kPilotStream = 0x70696c6f74ull;
 
 bool is_valid(const Spectrum& value) { return value.is_finite() && value.min() >= 0; }
@@ -68,9 +68,8 @@ class SplattingIntegrator::PassSink final : public ContributionSink {
     const Spectrum value = contribution.value * contribution.weight;
     if (drop(value)) return;
     splats_.picture.add(pixel, value);
-    for_layers(contribution, value, [&](size_t channel, const Spectrum& part) {
-      splats_.layers.at(channel).add(pixel, part);
-    });
+    for_layers(contribution, value,
+               [&](size_t channel, const Spectrum& part) { splats_.layers.at(channel).add(pixel, part); });
   }
 
  private:
@@ -192,10 +191,14 @@ void SplattingIntegrator::add_counters(const SampleCounters& counters) {
 
 Counters SplattingIntegrator::counters() const {
   const std::lock_guard lock(mutex_);
-  return {{"camera_samples", totals_.camera_samples}, {"light_paths", totals_.light_paths},
-          {"rays", totals_.rays},                     {"shadow_rays", totals_.shadow_rays},
-          {"connections", totals_.connections},       {"collisions", totals_.collisions},
-          {"free_flights", totals_.free_flights},     {"dropped_samples", totals_.dropped_samples},
+  return {{"camera_samples", totals_.camera_samples},
+          {"light_paths", totals_.light_paths},
+          {"rays", totals_.rays},
+          {"shadow_rays", totals_.shadow_rays},
+          {"connections", totals_.connections},
+          {"collisions", totals_.collisions},
+          {"free_flights", totals_.free_flights},
+          {"dropped_samples", totals_.dropped_samples},
           {"saturated_splats", saturated_}};
 }
 

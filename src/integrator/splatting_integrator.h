@@ -10,8 +10,8 @@ namespace turbid {
 
 /// A path from a light to the sensor that contributes: how it was put together, and what it carries.
 struct Contribution {
-  Spectrum value;         ///< as if this were the only way to make such paths
-  float weight = 1;       ///< of multiple importance sampling
+  Spectrum value;           ///< as if this were the only way to make such paths
+  float weight = 1;         ///< of multiple importance sampling
   int light_vertices = 0;   ///< made by the walk from the light, the light itself included
   int sensor_vertices = 0;  ///< made by the walk from the sensor, the sensor included
   int order = 0;            ///< collisions in media

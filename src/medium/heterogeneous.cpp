@@ -41,7 +41,7 @@ MajorantGrid make_grid(const HeterogeneousParts& parts) {
 }
 
 /// Positive exponential variate from u in [0, 1).
-float optical_distance(Sampler& sampler) { return -std::log(1 - sampler.next_1d()); }
+float optical_distance(float u) { return -std::log(1 - u); }
 
 /// Share of each channel that a null collision leaves. Rounding may push the extinction past its bound.
 Spectrum null_share(const Spectrum& real) {
@@ -110,10 +110,10 @@ Spectrum HeterogeneousMedium::emission(const Vec3& p, const Spectrum& extinction
 
 Flight HeterogeneousMedium::sample_flight(const Ray& ray, const Spectrum& mix, Sampler& sampler) const {
   Flight flight;
-  Spectrum passed(1.0f);                    // prod n_i
-  Spectrum mixture = mix;                   // N_i
-  Spectrum depth(0.0f);                     // for the proxy
-  float ahead = optical_distance(sampler);  // in majorants, to the next tentative collision
+  Spectrum passed(1.0f);                              // prod n_i
+  Spectrum mixture = mix;                             // N_i
+  Spectrum depth(0.0f);                               // for the proxy
+  float ahead = optical_distance(sampler.next_1d());  // in majorants, to the next tentative collision
   grid_.walk(ray, [&](const MajorantCell& cell, float t, float end) {
     depth += cell.mean * (end - t);
     while (true) {
@@ -137,7 +137,7 @@ Flight HeterogeneousMedium::sample_flight(const Ray& ray, const Spectrum& mix, S
       passed *= null;
       mixture *= null;
       rescale(passed, mixture);
-      ahead = optical_distance(sampler);
+      ahead = optical_distance(sampler.next_1d());
     }
   });
   if (flight.collides) return flight;
@@ -146,11 +146,12 @@ Flight HeterogeneousMedium::sample_flight(const Ray& ray, const Spectrum& mix, S
   return flight;
 }
 
-Spectrum HeterogeneousMedium::transmittance(const Ray& ray, Sampler& sampler) const {
+Spectrum HeterogeneousMedium::transmittance(const Ray& ray, const Sampler& sampler) const {
+  Rng rng = sampler.aside(ray.origin, ray.direction);
   Spectrum estimate(1.0f);                 // of what exceeds the minorants
   constexpr float kRouletteBelow = 0.01f;  // what is left may end at random
   Spectrum control(0.0f);                  // optical depth of the minorants
-  float ahead = optical_distance(sampler);
+  float ahead = optical_distance(rng.next_float());
   grid_.walk(ray, [&](const MajorantCell& cell, float t, float end) {
     control += cell.minorant * (end - t);
     const float majorant = cell.majorant - cell.minorant.min();
@@ -163,13 +164,13 @@ Spectrum HeterogeneousMedium::transmittance(const Ray& ray, Sampler& sampler) co
       estimate *= null_share((extinction(ray.at(t)) - cell.minorant) / majorant);
       if (estimate.is_black()) return false;
       if (estimate.max() < kRouletteBelow) {
-        if (sampler.next_1d() < 0.5f) {
+        if (rng.next_float() < 0.5f) {
           estimate = Spectrum(0.0f);
           return false;
         }
         estimate *= 2.0f;
       }
-      ahead = optical_distance(sampler);
+      ahead = optical_distance(rng.next_float());
     }
   });
   return estimate * exp(control * -1.0f);

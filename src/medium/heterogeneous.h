@@ -41,7 +41,7 @@ class HeterogeneousMedium final : public Medium {
 
   /// Residual ratio tracking (Novak et al. 2014): the cells' minorants attenuate exactly, what exceeds them is
   /// estimated with majorant M - min of the minorants.
-  Spectrum transmittance(const Ray& ray, Sampler& sampler) const override;
+  Spectrum transmittance(const Ray& ray, const Sampler& sampler) const override;
 
   /// From the cells' means; at least exp(-30), so that it never says that no light comes through.
   Spectrum proxy_transmittance(const Ray& ray) const override;

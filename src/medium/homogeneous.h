@@ -47,7 +47,7 @@ class HomogeneousMedium final : public Medium {
     for (int c = 0; c < kChannels; ++c) result[c] = std::exp(-sigma_t_[c] * t);
     return result;
   }
-  Spectrum transmittance(const Ray& ray, Sampler&) const override { return transmittance(ray.t_max); }
+  Spectrum transmittance(const Ray& ray, const Sampler&) const override { return transmittance(ray.t_max); }
   Spectrum proxy_transmittance(const Ray& ray) const override { return transmittance(ray.t_max); }
 
   Spectrum proxy_sigma_t(const Vec3&) const override { return sigma_t_; }

@@ -33,8 +33,9 @@ class Medium {
   /// no channel is ever divided by the density of another alone (NUMERICS 0).
   virtual Flight sample_flight(const Ray& ray, const Spectrum& mix, Sampler& sampler) const = 0;
 
-  /// Transmittance over the whole ray (exact, or an unbiased estimate), per channel.
-  virtual Spectrum transmittance(const Ray& ray, Sampler& sampler) const = 0;
+  /// Transmittance over the whole ray (exact, or an unbiased estimate), per channel. Random numbers come from
+  /// Sampler::aside.
+  virtual Spectrum transmittance(const Ray& ray, const Sampler& sampler) const = 0;
 
   /// A stand-in for the transmittance that depends on the ray alone and is not 0 where light comes through. Multiple
   /// importance sampling across media weighs by it, the same for all techniques (NUMERICS 3). Exact for homogeneous

@@ -7,7 +7,7 @@ constexpr Passage kBlocked{Spectrum(0.0f), 0, Spectrum(0.0f)};
 
 /// Attenuates along the first `distance` of the ray.
 void attenuate(Passage& passage, Spectrum& throughput, const Medium& medium, const Ray& ray, float distance,
-               Sampler& sampler) {
+               const Sampler& sampler) {
   const Ray part{ray.origin, ray.direction, distance};
   const Spectrum transmittance = medium.transmittance(part, sampler);
   // An estimate of the transmittance is random: weights of multiple importance sampling must not depend on it.
@@ -26,7 +26,7 @@ Passage pass_empty_space(const Scene& scene, const Ray& ray, SampleCounters& cou
   return scene.rays().occluded(ray) ? kBlocked : Passage{};
 }
 
-Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, Sampler& sampler,
+Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, const Sampler& sampler,
                       SampleCounters& counters, const MediumStack* enclosing) {
   Passage passage;
   if (!scene.has_null_surfaces()) {

@@ -26,7 +26,7 @@ inline Spectrum channel_mix(const Spectrum& throughput) { return throughput / th
 /// Walks along `ray` up to ray.t_max (infinite: to a light at infinity) through null surfaces and media. `throughput`
 /// is that of the walk along this direction (any scale): it sets the mixture of the channels. `enclosing`: the shapes
 /// around the origin, in scenes with priorities only; `medium` is then its medium.
-Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, Sampler& sampler,
+Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, const Sampler& sampler,
                       SampleCounters& counters, const MediumStack* enclosing = nullptr);
 
 /// From one place to just before another.

@@ -2,7 +2,7 @@
 
 namespace turbid {
 
-SensorConnector::SensorConnector(const Scene& scene, double paths, Sampler& sampler, SampleCounters& counters)
+SensorConnector::SensorConnector(const Scene& scene, double paths, const Sampler& sampler, SampleCounters& counters)
     : scene_(scene),
       film_(scene.film()),
       crop_(film_.image_size()),
@@ -49,18 +49,20 @@ std::optional<SensorArrival> SensorConnector::arrive_from(const Emission& emissi
 /// The sky behind everything: an edge from infinity.
 std::optional<SensorArrival> SensorConnector::arrive_from_sky(const Emission& emission) const {
   const Vec3 towards = -emission.ray.direction;
-  const auto way = scene_.sensor().connect_to_infinity(towards, sampler_.next_2d());
+  Rng rng = sampler_.aside(towards);
+  const auto way = scene_.sensor().connect_to_infinity(towards, next_2d(rng));
   if (!way) return std::nullopt;
   const auto target = target_of(*way);
   if (!target) return std::nullopt;
   Ray line{way->position + towards * way->near_t, towards, way->far_t - way->near_t};
   // Media without end stop at the end of the world, even if things are visible farther away.
   if (line.t_max >= scene_.distance_to_world_end(line)) line.t_max = kInfinity;
-  Traveller from_sensor(scene_, true, sampler_, counters_);
-  from_sensor.start(line, scene_.sensor_medium(), scene_.sensor_media());
   const Spectrum near = near_part(*way, towards), arrived = emission.throughput * near;
   if (arrived.is_black()) return std::nullopt;
-  const Passage passage = from_sensor.look_along(line, arrived);
+  const bool stacked = scene_.has_priorities();
+  const Medium* medium = stacked ? scene_.sensor_media().medium() : scene_.sensor_medium();
+  const Passage passage =
+      pass_straight(scene_, line, medium, arrived, sampler_, counters_, stacked ? &scene_.sensor_media() : nullptr);
   if (passage.prob == 0) return std::nullopt;
   return arrival(*target, *way, near * passage.transmittance * emission.ray.pdf.pdf_a, passage.proxy);
 }
@@ -83,7 +85,8 @@ std::optional<SplatTarget> SensorConnector::target_of(const SensorConnection& wa
   const bool near = position.x >= -support && position.x <= static_cast<float>(crop_.x) + support &&
                     position.y >= -support && position.y <= static_cast<float>(crop_.y) + support;
   if (!near) return std::nullopt;
-  const SplatTarget target = choose_pixel(film_.filter, position, sampler_.next_2d());
+  Rng rng = sampler_.aside(way.position, Vec3(way.film.x, way.film.y, 0));
+  const SplatTarget target = choose_pixel(film_.filter, position, next_2d(rng));
   const Vec2i& pixel = target.pixel;
   if (target.weight == 0 || pixel.x < 0 || pixel.y < 0 || pixel.x >= crop_.x || pixel.y >= crop_.y) return std::nullopt;
   return target;

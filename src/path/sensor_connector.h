@@ -21,16 +21,17 @@ struct SensorArrival {
 /// Joins points of light paths with the sensor, and finds the pixels that see them.
 class SensorConnector {
  public:
-  /// `paths`: how many light paths make one picture.
-  SensorConnector(const Scene& scene, double paths, Sampler& sampler, SampleCounters& counters);
+  /// `paths`: how many light paths make one picture. Random numbers come from Sampler::aside.
+  SensorConnector(const Scene& scene, double paths, const Sampler& sampler, SampleCounters& counters);
 
-  /// The way to the aperture; takes two numbers. Empty where the sensor does not look.
+  /// The way from a point to the aperture. Empty where the sensor does not look.
   std::optional<SensorConnection> way_from(const Vec3& p) const {
-    return scene_.sensor().connect(p, sampler_.next_2d());
+    Rng rng = sampler_.aside(p);
+    return scene_.sensor().connect(p, next_2d(rng));
   }
 
   /// Follows a way_from a point. `traveller` stands there; `surface` if it is one, `origin` lies off it. `flux`: what
-  /// sets out, any scale; black flux never arrives. Takes two numbers for the pixel.
+  /// sets out, any scale; black flux never arrives.
   std::optional<SensorArrival> arrive(const SensorConnection& way, const Vec3& origin, const Spectrum& flux,
                                       const Traveller& traveller, const SurfaceEvent* surface = nullptr) const;
 
@@ -48,6 +49,10 @@ class SensorConnector {
 
  private:
   std::optional<SensorArrival> arrive_from_sky(const Emission& emission) const;
+  static Vec2 next_2d(Rng& rng) {
+    const float u = rng.next_float();
+    return {u, rng.next_float()};
+  }
   std::optional<SplatTarget> target_of(const SensorConnection& way) const;
   SensorArrival arrival(const SplatTarget& target, const SensorConnection& way, const Spectrum& factor,
                         const Spectrum& proxy) const;
@@ -58,7 +63,7 @@ class SensorConnector {
   const FilmSettings& film_;
   Vec2i crop_;
   float scale_;  ///< pixels of the whole film per light path
-  Sampler& sampler_;
+  const Sampler& sampler_;
   SampleCounters& counters_;
 };
 

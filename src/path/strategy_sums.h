@@ -32,13 +32,13 @@ class StrategyWeights {
 
   /// How a walk left a vertex.
   struct Departure {
-    bool delta = true;     ///< in a direction without a density: nothing joins with this vertex, densities cancel
-    double pdf_w = 1;      ///< of the direction, 1/sr; 1 where delta
-    double pdf_back_w = 1; ///< of the direction to the vertex before, for a walk that comes from the next, 1/sr
+    bool delta = true;      ///< in a direction without a density: nothing joins with this vertex, densities cancel
+    double pdf_w = 1;       ///< of the direction, 1/sr; 1 where delta
+    double pdf_back_w = 1;  ///< of the direction to the vertex before, for a walk that comes from the next, 1/sr
   };
 
-  /// The sums at the next vertex. `arrive`: what turns a density per solid angle at the last vertex into one per area or
-  /// volume at the next; `back`: the same for the opposite way.
+  /// The sums at the next vertex. `arrive`: what turns a density per solid angle at the last vertex into one per area
+  /// or volume at the next; `back`: the same for the opposite way.
   StrategySums next(const StrategySums& last, const Departure& by, double arrive, double back) const {
     const double joint = by.delta ? 0 : last.joint;
     return {1 / (by.pdf_w * arrive), by.delta ? 0.0 : 1.0,

@@ -44,8 +44,7 @@ class SubpathRecorder : public WalkRecorder {
     if (!(sample.flags & lobe::kDelta)) {
       const TransportMode opposite =
           mode == TransportMode::kRadiance ? TransportMode::kImportance : TransportMode::kRadiance;
-      const Bsdf::Eval back =
-          event.object.bsdf->eval(event.point, sample.direction, event.given_local, opposite);
+      const Bsdf::Eval back = event.object.bsdf->eval(event.point, sample.direction, event.given_local, opposite);
       by = {false, static_cast<double>(sample.pdf_w), static_cast<double>(back.pdf_w)};
     }
     depart(event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, chosen)), sums, by);

@@ -8,8 +8,8 @@ namespace turbid {
 /// A vertex of a walk that something can be joined with: a collision, or a point of a surface with a smooth lobe.
 struct Vertex {
   Vec3 position;
-  Vec3 given;               ///< unit, to where the walk comes from
-  Spectrum throughput;      ///< PathState::throughput: all but the vertex's own scattering
+  Vec3 given;           ///< unit, to where the walk comes from
+  Spectrum throughput;  ///< PathState::throughput: all but the vertex's own scattering
   int depth = 0, order = 0;
   const Medium* medium = nullptr;  ///< on the side of `given`; null: vacuum
   const Object* object = nullptr;  ///< null: a collision

@@ -52,9 +52,7 @@ class Walk {
 
   /// Walks from the sensor. The recorder hears nothing of what lies before the near plane. Returns alpha: 1 where the
   /// walk met anything but empty space, media included.
-  float run(const SensorRay& camera)
-    requires(kMode == TransportMode::kRadiance)
-  {
+  float run(const SensorRay& camera) requires(kMode == TransportMode::kRadiance) {
     throughput_ = Spectrum(camera.weight);
     inverse_start_ = eta_scale_ = 1;
     depth_ = order_ = 0;
@@ -71,9 +69,7 @@ class Walk {
   }
 
   /// Walks from a light; its random numbers come from where the sampler stands.
-  void run(const LightSources& sources)
-    requires(kMode == TransportMode::kImportance)
-  {
+  void run(const LightSources& sources) requires(kMode == TransportMode::kImportance) {
     ++counters_.light_paths;
     if (settings_.max_depth <= 0) return;
     const std::optional<Emission> emission = sources.sample(sampler_);
@@ -220,7 +216,7 @@ class Walk {
 
   Spectrum throughput_{1.0f};
   float inverse_start_ = 1;  ///< 1 / largest channel of the throughput at the start
-  float eta_scale_ = 1;  ///< squared index here / at the sensor, for walks from there
+  float eta_scale_ = 1;      ///< squared index here / at the sensor, for walks from there
   float alpha_ = 0;
   int depth_ = 0, order_ = 0;
 };

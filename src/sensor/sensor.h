@@ -11,7 +11,7 @@ namespace turbid {
 struct SensorRay {
   Ray ray;
   float near_t = 0;
-  float weight = 1;  ///< factor of the radiance: 1 for the sensors that exist
+  float weight = 1;             ///< factor of the radiance: 1 for the sensors that exist
   Vec2 u_aperture{0.5f, 0.5f};  ///< the numbers that chose its origin
 };
 

@@ -8,7 +8,6 @@
 namespace turbid::testing {
 namespace {
 
-constexpr int kBlock = 4;
 const char* const kNames[] = {"all", "order 0", "order 1", "order 2", "order 3+"};
 
 IntegratorReplacement replacement(const IntegratorDescription& old, const std::string& words) {
@@ -36,16 +35,16 @@ bool looks_at_specular(const Scene& scene, const SensorRay& camera) {
   return false;
 }
 
-std::vector<bool> find_specular_blocks(const Scene& scene) {
+std::vector<bool> find_specular_blocks(const Scene& scene, int block) {
   const Vec2i size = scene.film().image_size();
-  const int columns = (size.x + kBlock - 1) / kBlock, rows = (size.y + kBlock - 1) / kBlock;
+  const int columns = (size.x + block - 1) / block, rows = (size.y + block - 1) / block;
   std::vector<bool> blocks(static_cast<size_t>(columns * rows));
   Sampler sampler(SamplerKind::kIndependent, 77);
   for (int y = 0; y < size.y; ++y)
     for (int x = 0; x < size.x; ++x)
       for (uint64_t i = 0; i < 32; ++i)
         if (looks_at_specular(scene, start_camera_sample(scene, Vec2i(x, y) + scene.film().crop_offset, i, sampler)))
-          blocks[static_cast<size_t>(y / kBlock * columns + x / kBlock)] = true;
+          blocks[static_cast<size_t>(y / block * columns + x / block)] = true;
   return blocks;
 }
 
@@ -53,8 +52,8 @@ std::vector<bool> find_specular_blocks(const Scene& scene) {
 PathSupport support_in(const Scene& scene, const PathSupport& support) {
   bool specular = false, delta = false, beams = false, glows = false;
   for (const Object& object : scene.objects())
-    specular = specular || (is_specular(*object.bsdf) && object.bsdf->flags() != (lobe::kNull | lobe::kDelta |
-                                                                                   lobe::kTransmission));
+    specular = specular || (is_specular(*object.bsdf) &&
+                            object.bsdf->flags() != (lobe::kNull | lobe::kDelta | lobe::kTransmission));
   for (const Emitter* emitter : scene.emitters()) {
     delta = delta || !emitter->can_be_hit();
     beams = beams || !emitter->can_be_aimed_at();
@@ -79,7 +78,7 @@ std::string difference(const PathSupport& a, const PathSupport& b) {
 
 }  // namespace
 
-Observation observe(const std::string& xml, const Contestant& contestant) {
+Observation observe(const std::string& xml, const Contestant& contestant, int block) {
   LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
   const auto replaced = replacement(loaded.integrator, contestant.integrator);
   const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
@@ -96,13 +95,15 @@ Observation observe(const std::string& xml, const Contestant& contestant) {
   StopFlag stop;
   setup.integrator->prepare(scene, contestant.seed, stop);
   const Vec2i size = scene.film().image_size();
-  const PassStatistics none(size, kBlock);
-  Observation result{none, {none, none, none, none}, find_specular_blocks(scene),
+  const PassStatistics none(size, block);
+  Observation result{none,
+                     {none, none, none, none},
+                     find_specular_blocks(scene, block),
                      support_in(scene, setup.integrator->support())};
   for (uint32_t pass = 0; pass < kPasses; ++pass) {
     Film film(size, names);
-    setup.integrator->render_pass(
-        scene, {contestant.seed, uint64_t{pass} * contestant.samples, contestant.samples}, film, stop);
+    setup.integrator->render_pass(scene, {contestant.seed, uint64_t{pass} * contestant.samples, contestant.samples},
+                                  film, stop);
     for (PixelSums& pixel : film.pixels())
       for (double& value : pixel.radiance) value *= contestant.brightness;
     result.all.add(film);
@@ -157,8 +158,21 @@ Agreement compare(const Observation& first, const Observation& second) {
   return result;
 }
 
-bool Agreement::accepted() const {
-  return std::all_of(verdicts.begin(), verdicts.end(), [](const auto& v) { return !v || v->accepted(); });
+double Agreement::smallest_p() const {
+  double result = 1;
+  for (size_t k = 0; k < verdicts.size(); ++k)
+    if (verdicts[k])
+      result = std::min({result, verdicts[k]->smallest_p,
+                         std::erfc(std::abs(mean_ratio[k] - 1) / ratio_error[k] / std::numbers::sqrt2)});
+  return result;
+}
+
+bool Agreement::accepted(size_t comparisons) const {
+  size_t tests = 0;
+  for (const auto& verdict : verdicts)
+    if (verdict) tests += verdict->tests + 1;
+  const auto all = static_cast<double>(std::max<size_t>(tests * comparisons, 1));
+  return smallest_p() > -std::expm1(std::log1p(-ZTestResult::kSignificance) / all);
 }
 
 std::string Agreement::report() const {
@@ -172,9 +186,9 @@ std::string Agreement::report() const {
   return text;
 }
 
-void expect_agreement(const std::string& xml, const Contestant& first, const Contestant& second,
-                      double largest_error) {
-  const Agreement agreement = compare(observe(xml, first), observe(xml, second));
+void expect_agreement(const std::string& xml, const Contestant& first, const Contestant& second, double largest_error,
+                      int block) {
+  const Agreement agreement = compare(observe(xml, first, block), observe(xml, second, block));
   EXPECT_EQ(agreement.cannot, "");
   EXPECT_TRUE(agreement.accepted()) << agreement.report();
   EXPECT_LT(agreement.ratio_error[0], largest_error) << "too noisy to say anything";

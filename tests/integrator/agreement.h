@@ -28,8 +28,9 @@ struct Observation {
   PathSupport support;
 };
 
-/// Renders kPasses passes. Dropped samples and saturated splats are failures.
-Observation observe(const std::string& xml, const Contestant& contestant);
+/// Renders kPasses passes; statistics are over blocks of `block` x `block` pixels. Dropped samples and saturated splats
+/// are failures.
+Observation observe(const std::string& xml, const Contestant& contestant, int block = 4);
 
 /// The comparison of two observations: one verdict for all light (index 0) and for each class of order (1 + class);
 /// empty where neither saw anything. `cannot`: why nothing can be compared.
@@ -37,16 +38,20 @@ struct Agreement {
   std::string cannot;
   size_t blocks = 0;  ///< compared; the others show what one of the two cannot sample
   std::array<std::optional<ZTestResult>, 1 + kOrderClasses> verdicts;
-  std::array<double, 1 + kOrderClasses> mean_ratio{};  ///< second over first
-  std::array<double, 1 + kOrderClasses> ratio_error{}; ///< its standard error
+  std::array<double, 1 + kOrderClasses> mean_ratio{};   ///< second over first
+  std::array<double, 1 + kOrderClasses> ratio_error{};  ///< its standard error
 
-  bool accepted() const;
+  /// No test rejects, all of them together at level 0.01 (Sidak's correction): those of the blocks, those of the means,
+  /// and those of `comparisons - 1` other comparisons like this one.
+  bool accepted(size_t comparisons = 1) const;
+  /// The smallest p-value of any test.
+  double smallest_p() const;
   std::string report() const;
 };
 Agreement compare(const Observation& first, const Observation& second);
 
 /// Asserts that two integrators agree on a scene, and that the comparison says something.
 void expect_agreement(const std::string& xml, const Contestant& first, const Contestant& second,
-                      double largest_error = 0.05);
+                      double largest_error = 0.05, int block = 4);
 
 }  // namespace turbid::testing

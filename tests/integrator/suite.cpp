@@ -26,6 +26,8 @@ const std::string kLamp = R"(<shape type="sphere"><point name="center" value="0.
   <float name="radius" value="0.4"/><emitter type="area"><rgb name="radiance" value="3, 4, 5"/></emitter></shape>)";
 const std::string kSmallLamp = R"(<shape type="sphere"><point name="center" value="0.5, 0.3, 2"/>
   <float name="radius" value="0.08"/><emitter type="area"><rgb name="radiance" value="80, 100, 120"/></emitter></shape>)";
+const std::string kMiddleLamp = R"(<shape type="sphere"><point name="center" value="0.5, 0.3, 2"/>
+  <float name="radius" value="0.2"/><emitter type="area"><rgb name="radiance" value="12, 16, 20"/></emitter></shape>)";
 const std::string kPoint = R"(<emitter type="point"><point name="position" value="0.5, 0.3, 1.5"/>
   <rgb name="intensity" value="5, 4, 3"/></emitter>)";
 const std::string kSpot = R"(<emitter type="spot"><rgb name="intensity" value="9, 8, 7"/>
@@ -58,8 +60,10 @@ std::string fog(float radius, const std::string& sigma_t) {
 }
 
 std::string glass(const std::string& center, float radius, const std::string& inside) {
-  return ball(center, radius, R"(<bsdf type="dielectric"><float name="int_ior" value="1.4"/>
-    <float name="ext_ior" value="1"/></bsdf>)" + inside);
+  return ball(center, radius,
+              R"(<bsdf type="dielectric"><float name="int_ior" value="1.4"/>
+    <float name="ext_ior" value="1"/></bsdf>)" +
+                  inside);
 }
 
 std::string octahedron(const std::string& placement, const std::string& bsdf) {
@@ -93,15 +97,14 @@ std::vector<SuiteScene> suite() {
   const std::string rough = R"(<bsdf type="roughdielectric"><float name="alpha" value="0.4"/>
     <float name="int_ior" value="1.4"/><float name="ext_ior" value="1"/></bsdf>)";
   const std::string murk = medium("interior", "1.5, 1, 0.7", "0.95, 0.9, 0.8");
-  const std::string around = ball("0, 0, 0", 9, R"(<bsdf type="null"/>)" +
-                                                    medium("interior", "0.1, 0.15, 0.2", "0.9, 0.9, 0.9"));
-  const std::string in_endless =
-      kPinholeInMedium.substr(0, kPinholeInMedium.find("</sensor>")) +
-      medium("medium", "0.03, 0.05, 0.08", "0.9, 0.9, 0.9") + "</sensor>";
+  const std::string around =
+      ball("0, 0, 0", 9, R"(<bsdf type="null"/>)" + medium("interior", "0.1, 0.15, 0.2", "0.9, 0.9, 0.9"));
+  const std::string in_endless = kPinholeInMedium.substr(0, kPinholeInMedium.find("</sensor>")) +
+                                 medium("medium", "0.03, 0.05, 0.08", "0.9, 0.9, 0.9") + "</sensor>";
   return {
       {"surfaces", scene(kLamp + kFloor, max5)},
       {"lamp in fog, any length", scene(kLamp + kFloor + fog(), integer("rr_depth", 2))},
-      {"point in fog", scene(kPoint + kFloor + fog(), max5)},
+      {"point in fog", scene(kPoint + kFloor + fog(), max5), 4, 1, {"volpath"}},
       {"small lamp in fog", scene(kSmallLamp + kFloor + fog(), max5)},
       {"spot in fog", scene(kSpot + kFloor + fog(1.5f), max5)},
       {"sky on fog", scene(kSky + kFloor + fog(1.5f), max5)},
@@ -116,12 +119,17 @@ std::vector<SuiteScene> suite() {
        scene(kLamp + kFloor + ball("0.2, -0.8, 1", 0.9f, R"(<bsdf type="dielectric"><float name="int_ior" value="1"/>
              <float name="ext_ior" value="1"/></bsdf>)" + murk),
              max6)},
-      {"caustic into fog", scene(kSmallLamp + kFloor + glass("0.4, 0.2, 1.2", 0.4f) + fog(), max6)},
-      {"point light behind glass with fog", scene(kPoint + kFloor + glass("0.4, 0.2, 0.9", 0.4f) + fog(), max6)},
-      {"lamp inside glass with murk", scene(kSmallLamp + kFloor + glass("0.5, 0.3, 1.6", 0.8f, murk), max6)},
+      {"caustic into fog", scene(kMiddleLamp + kFloor + glass("0.4, 0.2, 1.2", 0.4f) + fog(), max6), 8, 4},
+      {"point light behind glass with fog",
+       scene(kPoint + kFloor + glass("0.4, 0.2, 0.9", 0.4f) + fog(), max6),
+       4,
+       1,
+       {"volpath"}},
+      {"lamp inside glass with murk", scene(kMiddleLamp + kFloor + glass("0.5, 0.3, 1.6", 0.8f, murk), max6), 8, 4},
       {"coarse mesh, smooth normals", scene(kLamp + kFloor + octahedron(solid, R"(<bsdf type="diffuse"/>)"), max5)},
       {"coarse mesh, rough metal",
-       scene(kLamp + kFloor + octahedron(solid, R"(<bsdf type="roughconductor"><float name="alpha" value="0.4"/></bsdf>)"),
+       scene(kLamp + kFloor +
+                 octahedron(solid, R"(<bsdf type="roughconductor"><float name="alpha" value="0.4"/></bsdf>)"),
              max5)},
       {"coarse glass, smooth normals",
        scene(kLamp + kFloor + octahedron(lens, R"(<bsdf type="dielectric"><float name="int_ior" value="1.4"/></bsdf>)"),
@@ -130,12 +138,14 @@ std::vector<SuiteScene> suite() {
       {"sensor inside the medium", scene(kLamp + kFloor + around, max5, kPinholeInMedium)},
       {"endless medium", scene(kLamp + kFloor, max4, in_endless)},
       {"endless medium under a sky", scene(kSky + kFloor, integer("max_depth", 3), in_endless)},
-      {"priorities and a world medium", scene(kLamp + kFloor + fog(1.5f) + medium("world", "0.05, 0.05, 0.05", "0.9, 0.9, 0.9"),
-                                              max4, kPinholeInMedium)},
+      {"priorities and a world medium",
+       scene(kLamp + kFloor + fog(1.5f) + medium("world", "0.05, 0.05, 0.05", "0.9, 0.9, 0.9"), max4,
+             kPinholeInMedium)},
       {"several media in turn",
        scene(kLamp + kFloor + fog() +
-                 ball("-0.6, -0.5, 1", 0.7f, R"(<bsdf type="null"/>)" + medium("interior", "2, 1, 0.5", "0.9, 0.9, 0.9", 0.7f) +
-                                                 medium("exterior", "0.4, 0.4, 0.4", "0.9, 0.8, 0.7")),
+                 ball("-0.6, -0.5, 1", 0.7f,
+                      R"(<bsdf type="null"/>)" + medium("interior", "2, 1, 0.5", "0.9, 0.9, 0.9", 0.7f) +
+                          medium("exterior", "0.4, 0.4, 0.4", "0.9, 0.8, 0.7")),
              max6)},
   };
 }

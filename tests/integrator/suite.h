@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -8,7 +9,8 @@ namespace turbid::testing {
 /// side, with something in between. 16 x 16 pixels.
 namespace pieces {
 
-extern const std::string kFilm, kPinhole, kThinLens, kFloor, kLamp, kSmallLamp, kPoint, kSpot, kSky, kSun, kLaser;
+extern const std::string kFilm, kPinhole, kThinLens, kFloor, kLamp, kMiddleLamp, kSmallLamp, kPoint, kSpot, kSky, kSun,
+    kLaser;
 /// A pinhole whose near plane clips collisions (not attenuation): without it their 1/distance^2 has no variance in
 /// light tracing.
 extern const std::string kPinholeInMedium;
@@ -27,6 +29,14 @@ std::string scene(const std::string& content, const std::string& settings = "", 
 
 struct SuiteScene {
   std::string name, xml;
+  int block = 4;        ///< size of the blocks that are compared: larger where some integrator finds light rarely
+  uint32_t effort = 1;  ///< how many times the samples of others
+  /// Integrators whose estimator has no variance here (an unweighted 1/distance^2 in a medium): no z-test on them.
+  std::vector<std::string> without_variance = {};
+
+  bool has_variance(const std::string& integrator) const {
+    return std::find(without_variance.begin(), without_variance.end(), integrator) == without_variance.end();
+  }
 };
 
 /// What every pair of integrators is compared on.

@@ -116,7 +116,8 @@ TEST(HeterogeneousMedium, LinearDensityHasItsClosedFormTransmittance) {
   const double depth[] = {1.5, 2, 1.5};
   Mean ratio, passing;
   Sampler sampler = sampler_of(11);
-  for (int n = 0; n < 100000; ++n) {
+  for (uint64_t n = 0; n < 100000; ++n) {
+    sampler.start(0, n);
     ratio.add(medium.transmittance(kAlong, sampler));
     const Flight flight = medium.sample_flight(kAlong, Spectrum(1 / 3.0f), sampler);
     passing.add(flight.collides ? Spectrum(0.0f) : flight.weight);
@@ -202,8 +203,10 @@ TEST(HeterogeneousMedium, TransmittanceIsUnbiasedPerChannel) {
     for (const float t_max : {0.5f, 2.7f, 3.9f, kInfinity}) {
       Mean ratio;
       Sampler sampler = sampler_of(2);
-      for (int n = 0; n < 50000; ++n)
+      for (uint64_t n = 0; n < 50000; ++n) {
+        sampler.start(0, n);
         ratio.add(medium.transmittance({kAlong.origin, kAlong.direction, t_max}, sampler));
+      }
       const double end = std::clamp(static_cast<double>(t_max) - 1, 0.0, 4.0);
       for (int c = 0; c < kChannels; ++c)
         EXPECT_LT(ratio.z(static_cast<size_t>(c), std::exp(-optical_depth(*sigma_t, c, end))), kWorstZ) << t_max;
@@ -239,7 +242,8 @@ TEST(HeterogeneousMedium, StaysFiniteInExtremes) {
   for (const float scale : {1e-30f, 1e-6f, 1.0f, 1e4f, 1e15f})
     for (const Spectrum& shape : {Spectrum(1.0f), Spectrum(0, 1, 1e-3f), Spectrum(1, 1e6f, 1e-6f)})
       for (const Spectrum& mix : {Spectrum(1 / 3.0f), Spectrum(0, 1, 0), Spectrum(1, 0, 0), Spectrum(1e-6f, 0, 1)})
-        for (int n = 0; n < 20; ++n) {
+        for (uint64_t n = 0; n < 20; ++n) {
+          sampler.start(0, n);
           const HeterogeneousMedium medium =
               make_medium(row_volume({shape * scale, shape * (scale * 0.99f)}, 2), constant_volume(Spectrum(0.5f)));
           // Long enough for many collisions, short enough for the test.
