@@ -4,6 +4,7 @@
 #include "core/rng.h"
 #include "core/warp.h"
 #include "emitter/area_light.h"
+#include "emitter/collimated_beam.h"
 #include "emitter/constant_environment.h"
 #include "emitter/directional_light.h"
 #include "emitter/environment_map.h"
@@ -118,6 +119,78 @@ TEST(Emission, RaysFromInfinityStartOnTheBoundingSphereAndCarryThePower) {
     EXPECT_LE(dot(ray->direction, ray->origin - Vec3(1, 2, 3)), 1e-5);
     EXPECT_NEAR(ray->weight[0], sky.power()[0], 1e-3f * sky.power()[0]);
   }
+}
+
+/// emission_pdf against the samples: the same numbers for the same ray, and a density of directions that integrates to
+/// one where there is one.
+void expect_pdf_of_samples(const Emitter& light) {
+  Rng rng(5);
+  Vec3 ng(0);
+  bool has_density = false;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 u_position = next_2d(rng);
+    const auto ray = light.sample_emission(u_position, next_2d(rng));
+    ASSERT_TRUE(ray);
+    const EmissionPdf pdf = light.emission_pdf(ray->ng, ray->direction);
+    EXPECT_NEAR(pdf.pdf_a, ray->pdf.pdf_a, 1e-5f * ray->pdf.pdf_a);
+    EXPECT_NEAR(pdf.pdf_w, ray->pdf.pdf_w, 1e-3f * ray->pdf.pdf_w);
+    ng = ray->ng;
+    has_density = ray->pdf.pdf_w > 0;
+  }
+  if (!has_density) return;
+  const Estimate integral = estimate(400000, [&] {
+    const Vec2 u = next_2d(rng);
+    return static_cast<double>(light.emission_pdf(ng, square_to_sphere(u)).pdf_w / kUniformSpherePdfW);
+  });
+  EXPECT_LT(std::abs(integral.mean - 1), 3.5 * integral.error + 1e-6);
+}
+
+TEST(Emission, DensitiesAreThoseOfTheSamples) {
+  const Transform to_world = Transform::look_at({2, 1, 0}, {0, 0, 0}, {0, 0, 1});
+  const auto ball = std::make_shared<Sphere>(Vec3(2, 0, 0), 0.7f);
+  expect_pdf_of_samples(PointLight({1.5f, 0, 0}, Spectrum(2, 3, 4)));
+  expect_pdf_of_samples(SpotLight(to_world, Spectrum(5), 30, 12));
+  expect_pdf_of_samples(SpotLight(to_world, Spectrum(5), 170, 12));
+  expect_pdf_of_samples(Projector(to_world, std::make_shared<ConstantTexture>(2.0f), 1.5f, 40, 1.5));
+  expect_pdf_of_samples(AreaLight(ball, std::make_shared<ConstantTexture>(3.0f)));
+  expect_pdf_of_samples(CollimatedBeam(to_world, Spectrum(1), 0.2f));
+  std::vector<Spectrum> pixels(16 * 8, Spectrum(0.1f));
+  pixels[40] = Spectrum(30, 20, 10);
+  EnvironmentMap map(pixels, 16, 8, {}, 1.5f);
+  DirectionalLight sun({1, 2, -0.5f}, Spectrum(4));
+  for (Emitter* light : {static_cast<Emitter*>(&map), static_cast<Emitter*>(&sun)}) {
+    light->set_scene_bounds({0.1f, 0, 0.1f}, 1.5f);
+    expect_pdf_of_samples(*light);
+  }
+}
+
+TEST(CollimatedBeam, SendsParallelRaysFromItsDisk) {
+  const Transform to_world = Transform::look_at({0, 0, 3}, {1, 0, 0}, {0, 1, 0});
+  const CollimatedBeam beam(to_world, Spectrum(3, 2, 1), 0.25f);
+  const Vec3 axis = normalize(Vec3(1, 0, -3));
+  Rng rng(9);
+  Vec3 mean(0);
+  double mean_square = 0;
+  constexpr int kRays = 20000;
+  for (int i = 0; i < kRays; ++i) {
+    const Vec2 u_position = next_2d(rng);
+    const auto ray = beam.sample_emission(u_position, next_2d(rng));
+    ASSERT_TRUE(ray);
+    EXPECT_LT(length(ray->direction - axis), 1e-6f);
+    EXPECT_EQ(ray->weight, Spectrum(3, 2, 1));
+    const Vec3 offset = ray->origin - Vec3(0, 0, 3);
+    EXPECT_NEAR(dot(offset, axis), 0, 1e-6f);
+    EXPECT_LE(length(offset), 0.25f + 1e-6f);
+    EXPECT_TRUE(beam.bounds().intersects(ray->origin));
+    mean += offset / kRays;
+    mean_square += static_cast<double>(length_squared(offset)) / kRays;
+  }
+  EXPECT_LT(length(mean), 0.25f * 4 / std::sqrt(float{kRays}));
+  EXPECT_NEAR(mean_square, 0.25 * 0.25 / 2, 0.25 * 0.25 * 4 / std::sqrt(kRays));  // uniform over the disk
+  EXPECT_FALSE(beam.sample_direct({1, 0, 0}, {0.5f, 0.5f}));
+  EXPECT_FALSE(beam.can_be_aimed_at());
+  EXPECT_EQ(CollimatedBeam(to_world, Spectrum(1), 0).emission_pdf({}, axis).pdf_a, 0);
+  EXPECT_THROW(CollimatedBeam(to_world, Spectrum(1), -1), std::invalid_argument);
 }
 
 }  // namespace
