@@ -108,14 +108,14 @@ void print_film(const Scene& scene) {
   if (film.crop_size.x > 0)
     text += fmt::format(", crop of {} x {} at ({}, {})", film.crop_size.x, film.crop_size.y, film.crop_offset.x,
                         film.crop_offset.y);
-  const Vec2i size = image_size(film);
+  const Vec2i size = film.image_size();
   fmt::print(kLine, "film",
              fmt::format("{}; {} samples per pixel, {} per pass", text, scene.sample_count(), samples_per_pass(size)));
 }
 
 /// What a render will need: the scene as it stands in memory now, and the films of total, pass and snapshot.
 void print_memory(const Scene& scene, const Integrator& integrator) {
-  const Vec2i size = image_size(scene.film());
+  const Vec2i size = scene.film().image_size();
   const double films =
       3.0 * size.x * size.y * static_cast<double>(sizeof(PixelSums) + sizeof(double) * integrator.layer_names().size());
   fmt::print(kLine, "memory",

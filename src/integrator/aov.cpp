@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "integrator/camera_sample.h"
+#include "integrator/integrators.h"
 #include "scene/values.h"
 
 namespace turbid {
@@ -131,7 +132,7 @@ void AovIntegrator::add_features(const Scene& scene, const Pass& pass, int row, 
   }
 }
 
-Plugin<IntegratorSetup> aov_row() {
+IntegratorPlugin aov_row() {
   return {
       "aov",
       {},

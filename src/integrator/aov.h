@@ -1,6 +1,6 @@
 #pragma once
 #include "integrator/features.h"
-#include "integrator/integrators.h"
+#include "integrator/integrator_plugin.h"
 
 namespace turbid {
 
@@ -34,6 +34,6 @@ class AovIntegrator : public Integrator {
 };
 
 /// The row of the integrator table.
-Plugin<IntegratorSetup> aov_row();
+IntegratorPlugin aov_row();
 
 }  // namespace turbid

@@ -56,4 +56,37 @@ std::unique_ptr<SplattingIntegrator::Worker> BidirectionalPathTracer::make_worke
   return std::make_unique<Tracer>(scene, *sources_, settings_, weights_, own_.connections, seed, counters);
 }
 
+IntegratorPlugin bdpt_row() {
+  return {"bdpt",
+          {},
+          "bidirectional path tracing: paths from lights and from the sensor, joined in all ways and weighed against "
+          "each other",
+          with_common_parameters(
+              {{"heuristic", ParameterType::kString, "power", "how the ways to make a path share it: power or balance"},
+               {"connections",
+                ParameterType::kFloat,
+                "8",
+                "about how many of the joining lines are tried for paths of one length",
+                {.min = 1}},
+               {"visualize_strategies", ParameterType::kBoolean, "false",
+                "writes what each way contributes as layers strategy.weighted.K.S and strategy.plain.K.S: K edges, S "
+                "vertices from the light"},
+               {"visualize_depth",
+                ParameterType::kInteger,
+                "6",
+                "most edges of the paths in these layers",
+                {.min = 1, .max = 16}}}),
+          [](const Properties& properties) {
+            BdptSettings own;
+            const std::string heuristic = properties.string("heuristic");
+            if (heuristic != "power" && heuristic != "balance")
+              properties.refuse("heuristic", "must be 'power' or 'balance', found '" + heuristic + "'");
+            if (heuristic == "balance") own.heuristic = StrategyWeights::Heuristic::kBalance;
+            own.connections = properties.number("connections");
+            if (properties.boolean("visualize_strategies"))
+              own.shown_edges = static_cast<int>(properties.integer("visualize_depth"));
+            return IntegratorSetup{std::make_shared<BidirectionalPathTracer>(path_settings(properties), own), false};
+          }};
+}
+
 }  // namespace turbid

@@ -1,9 +1,9 @@
 #pragma once
 #include <optional>
 
+#include "integrator/integrator_plugin.h"
 #include "integrator/splatting_integrator.h"
 #include "path/light_sources.h"
-#include "path/path_settings.h"
 #include "path/strategy_sums.h"
 
 namespace turbid {
@@ -44,5 +44,8 @@ class BidirectionalPathTracer : public SplattingIntegrator {
   StrategyWeights weights_;
   std::optional<LightSources> sources_;
 };
+
+/// Row of the integrator table: `bdpt`.
+IntegratorPlugin bdpt_row();
 
 }  // namespace turbid

@@ -33,14 +33,16 @@ void LightSubpath::at_emitter(const Emission& emission, const Traveller& travell
 
 void LightSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
   current_ = arrive(event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given)), state);
-  if (event.object.bsdf->flags() & lobe::kSmooth) keep(Vertex(event, state, traveller.medium()), traveller);
+  if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
+  vertices_.emplace_back(event, state, traveller.medium()).sums = current_;
+  join_with_sensor(vertices_.back(), traveller);
 }
 
 void LightSubpath::at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-  const Vertex vertex(event, state);
+  Vertex& vertex = vertices_.emplace_back(event, state);
   events_ = vertex.events;
-  current_ = arrive(event.position, events_, 1, state);
-  keep(vertex, traveller);
+  vertex.sums = current_ = arrive(event.position, events_, 1, state);
+  join_with_sensor(vertex, traveller);
 }
 
 StrategySums LightSubpath::arrive(const Vec3& position, const Spectrum& events, float cosine,
@@ -86,18 +88,15 @@ StrategySums LightSubpath::first_sums(const Vec3& position, const Spectrum& even
   return sums;
 }
 
-void LightSubpath::keep(const Vertex& vertex, const Traveller& traveller) {
-  vertices_.push_back(vertex);
-  vertices_.back().sums = current_;
+void LightSubpath::join_with_sensor(const Vertex& vertex, const Traveller& traveller) {
   if (!context_.settings.order_counts(vertex.order)) return;
   const auto way = context_.sensor.way_from(vertex.position);
   if (!way) return;
   const Vec3 wo = normalize(way->position - vertex.position);
   const Vertex::Scattering scattered = vertex.scatter(wo, TransportMode::kImportance);
   const Spectrum flux = vertex.throughput * scattered.value;
-  const SurfaceEvent* surface = nullptr;
   std::optional<SurfaceEvent> event;
-  if (vertex.is_surface()) surface = &event.emplace(vertex.surface_event());
+  const SurfaceEvent* surface = vertex.is_surface() ? &event.emplace(vertex.surface_event()) : nullptr;
   const auto arrival = context_.sensor.arrive(*way, vertex.leave(wo), flux, traveller, surface);
   if (!arrival) return;
   const double pdf = to_double(arrival->pdf) * end_factor(vertex, wo, arrival->proxy);
@@ -254,32 +253,12 @@ void SensorSubpath::join(const Vertex& vertex, const Traveller& traveller) {
     if (sum < 1) continue;
     sum -= 1;
     if (edges > context_.settings.max_depth) return;
-    if (context_.settings.order_counts(vertex.order + light.order)) join(vertex, light, prob, traveller);
+    if (!context_.settings.order_counts(vertex.order + light.order)) continue;
+    ++context_.counters.connections;
+    const auto joined = turbid::join(context_.scene, weights_, vertex, light, traveller);
+    if (joined)
+      gather(joined->value / prob, joined->others, light.depth + 1, vertex.depth + 1, vertex.order + light.order);
   }
-}
-
-void SensorSubpath::join(const Vertex& vertex, const Vertex& light, float prob, const Traveller& traveller) {
-  const Vec3 way = light.position - vertex.position;
-  const double inverse = inverse_square(light.position, vertex.position);
-  const Vec3 wi = way * static_cast<float>(std::sqrt(inverse));
-  if (context_.scene.separates(vertex.medium_towards(wi), light.medium_towards(-wi))) return;
-  const Vertex::Scattering here = vertex.scatter(wi, TransportMode::kRadiance);
-  if (here.value.is_black()) return;
-  const Vertex::Scattering there = light.scatter(-wi, TransportMode::kImportance);
-  if (there.value.is_black()) return;
-  ++context_.counters.connections;
-  std::optional<SurfaceEvent> event;
-  const SurfaceEvent* surface = vertex.is_surface() ? &event.emplace(vertex.surface_event()) : nullptr;
-  const Passage passage =
-      traveller.look_along(line_between(vertex.leave(wi), light.leave(-wi)), Spectrum(1.0f), surface);
-  if (passage.prob == 0) return;
-  const double pdf_of_light = to_double(here.pdf_w) * end_factor(light, wi, passage.proxy) * inverse;
-  const double pdf_of_vertex = to_double(there.pdf_w) * end_factor(vertex, wi, passage.proxy) * inverse;
-  const double others = weights_.others(light.sums, pdf_of_light, to_double(there.pdf_back_w)) +
-                        weights_.others(vertex.sums, pdf_of_vertex, to_double(here.pdf_back_w));
-  const float factor = static_cast<float>(inverse) / prob;
-  gather(vertex.throughput * here.value * passage.transmittance * there.value * light.throughput * factor, others,
-         light.depth + 1, vertex.depth + 1, vertex.order + light.order);
 }
 
 }  // namespace turbid

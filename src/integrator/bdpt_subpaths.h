@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "integrator/splatting_integrator.h"
+#include "path/join.h"
 #include "path/sensor_connector.h"
 #include "path/subpath.h"
 
@@ -42,7 +43,7 @@ class LightSubpath : public SubpathRecorder {
  private:
   StrategySums arrive(const Vec3& position, const Spectrum& events, float cosine, const PathState& state) const;
   StrategySums first_sums(const Vec3& position, const Spectrum& events, float cosine) const;
-  void keep(const Vertex& vertex, const Traveller& traveller);
+  void join_with_sensor(const Vertex& vertex, const Traveller& traveller);
 
   const BdptContext& context_;
   ContributionSink* sink_ = nullptr;
@@ -88,7 +89,6 @@ class SensorSubpath : public SubpathRecorder {
   double others_of_direct(const Vertex& vertex, const EmitterChoice& choice, const DirectLightSample& light,
                           const Vertex::Scattering& scattered, const Spectrum& proxy) const;
   void join(const Vertex& vertex, const Traveller& traveller);
-  void join(const Vertex& vertex, const Vertex& light, float prob, const Traveller& traveller);
 
   const BdptContext& context_;
   Sampler& sampler_;

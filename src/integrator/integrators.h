@@ -1,20 +1,13 @@
 #pragma once
 #include <memory>
 
-#include "integrator/integrator.h"
+#include "integrator/integrator_plugin.h"
 #include "scene/loader.h"
-#include "scene/plugin.h"
 
 namespace turbid {
 
-/// An integrator as a scene file asks for it, wrappers resolved.
-struct IntegratorSetup {
-  std::shared_ptr<Integrator> integrator;
-  bool second_moment = false;  ///< a `moment` wrapper: write the mean square of the samples too
-};
-
-/// The integrators, as the table that `turbid list integrators` shows.
-const PluginTable<IntegratorSetup>& integrator_table();
+/// The integrators, as the table that `turbid list integrators` shows. Each brings its row from its own file.
+const IntegratorTable& integrator_table();
 
 /// Makes what the node describes. Throws SceneError.
 IntegratorSetup make_integrator(const IntegratorDescription& description, const SceneDocument* document = nullptr);

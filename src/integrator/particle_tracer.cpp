@@ -92,4 +92,14 @@ std::unique_ptr<SplattingIntegrator::Worker> ParticleTracer::make_worker(const S
   return std::make_unique<Tracer>(scene, *sources_, settings_, seed, counters);
 }
 
+IntegratorPlugin particle_tracer_row() {
+  return {"ptracer",
+          {},
+          "light tracing: paths from the lights, joined with the sensor; cannot see through mirrors and smooth glass",
+          with_common_parameters({}),
+          [](const Properties& properties) {
+            return IntegratorSetup{std::make_shared<ParticleTracer>(path_settings(properties)), false};
+          }};
+}
+
 }  // namespace turbid

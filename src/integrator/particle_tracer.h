@@ -1,9 +1,9 @@
 #pragma once
 #include <optional>
 
+#include "integrator/integrator_plugin.h"
 #include "integrator/splatting_integrator.h"
 #include "path/light_sources.h"
-#include "path/path_settings.h"
 
 namespace turbid {
 
@@ -29,5 +29,8 @@ class ParticleTracer : public SplattingIntegrator {
   PathSettings settings_;
   std::optional<LightSources> sources_;
 };
+
+/// Row of the integrator table: `ptracer`.
+IntegratorPlugin particle_tracer_row();
 
 }  // namespace turbid

@@ -151,12 +151,43 @@ PixelSample trace(const Scene& scene, const PathSettings& settings, const Sensor
   return sample;
 }
 
+using Kind = PathTracer::Kind;
+
+template <Kind kKind>
+IntegratorSetup make(const Properties& properties) {
+  return {std::make_shared<PathTracer>(kKind, path_settings(properties)), false};
+}
+
 }  // namespace
 
 PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                         SampleCounters& counters) const {
   return kind_ == Kind::kVolumes ? trace<true>(scene, settings_, camera, sampler, counters)
                                  : trace<false>(scene, settings_, camera, sampler, counters);
+}
+
+IntegratorPlugin path_row() {
+  return {"path", {}, "path tracing on surfaces; media are ignored", with_common_parameters({}), make<Kind::kSurfaces>};
+}
+
+IntegratorPlugin direct_row() {
+  const std::string ignored = "accepted for Mitsuba's sake, without effect";
+  return {"direct",
+          {},
+          "light that reaches the sensor after at most one scattering: path with max_depth = 2",
+          with_common_parameters({{"shading_samples", ParameterType::kInteger, "1", ignored},
+                                  {"emitter_samples", ParameterType::kInteger, "1", ignored},
+                                  {"bsdf_samples", ParameterType::kInteger, "1", ignored}},
+                                 "2"),
+          make<Kind::kSurfaces>};
+}
+
+IntegratorPlugin volpath_row() {
+  return {"volpath",
+          {"volpathmis"},
+          "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
+          with_common_parameters({}),
+          make<Kind::kVolumes>};
 }
 
 }  // namespace turbid

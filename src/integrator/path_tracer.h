@@ -1,6 +1,6 @@
 #pragma once
+#include "integrator/integrator_plugin.h"
 #include "integrator/sampling_integrator.h"
-#include "path/path_settings.h"
 
 namespace turbid {
 
@@ -26,5 +26,10 @@ class PathTracer : public SamplingIntegrator {
   Kind kind_;
   PathSettings settings_;
 };
+
+/// Rows of the integrator table: `path`, `direct`, `volpath`.
+IntegratorPlugin path_row();
+IntegratorPlugin direct_row();
+IntegratorPlugin volpath_row();
 
 }  // namespace turbid

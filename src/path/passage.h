@@ -29,12 +29,13 @@ inline Spectrum channel_mix(const Spectrum& throughput) { return throughput / th
 Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, const Sampler& sampler,
                       SampleCounters& counters, const MediumStack* enclosing = nullptr);
 
-/// From one place to just before another.
+/// From one place to just before another; of no length, in any direction, where they are the same.
 inline Ray line_between(const Vec3& origin, const Vec3& end) {
   // The end is known to a few units in the last place of the distance.
   constexpr float kBeforeEnd = 1 - 1e-5f;
   const Vec3 way = end - origin;
   const float distance = length(way);
+  if (!(distance > 0)) return {origin, Vec3(0, 0, 1), 0};
   return {origin, way / distance, distance * kBeforeEnd};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "path/vertex.h"
+#include "path/join.h"
 #include "path/walk.h"
 
 namespace turbid {
@@ -56,12 +56,6 @@ class SubpathRecorder : public WalkRecorder {
 
   /// end_factor of the last edge at its beginning.
   double back_factor() const { return end_factor(last_events_, last_cosine_, straight_); }
-  /// 1/distance^2. (Two collisions may round to the same place.)
-  static double inverse_square(const Vec3& a, const Vec3& b) {
-    constexpr float kLeast = 1e-30f;
-    return 1 / static_cast<double>(std::max(length_squared(a - b), kLeast));
-  }
-
   const StrategyWeights& weights_;
   Spectrum straight_{1.0f};  ///< proxies along the edge so far
   Vec3 last_position_;       ///< of the vertex that the edge began at ...

@@ -214,10 +214,9 @@ class Job {
 
 }  // namespace
 
-Vec2i image_size(const FilmSettings& film) { return film.crop_size.x > 0 ? film.crop_size : film.size; }
-
 RenderTask make_task(const Scene& scene, Integrator& integrator) {
-  return {image_size(scene.film()), [&](uint64_t seed, const StopFlag& stop) { integrator.prepare(scene, seed, stop); },
+  return {scene.film().image_size(),
+          [&](uint64_t seed, const StopFlag& stop) { integrator.prepare(scene, seed, stop); },
           [&](const Pass& pass, Film& film, const StopFlag& stop) {
             return integrator.render_pass(scene, pass, film, stop);
           },

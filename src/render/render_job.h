@@ -22,9 +22,6 @@ struct RenderTask {
 /// Both must outlive the task.
 RenderTask make_task(const Scene& scene, Integrator& integrator);
 
-/// The image that a scene's film exposes: its crop window, or all of it.
-Vec2i image_size(const FilmSettings& film);
-
 struct RenderOptions {
   Budget budget;
   uint64_t seed = 0;

@@ -40,7 +40,7 @@ inline ImageMean mean_of(const Film& film) {
 inline Film render_with(const Scene& scene, Integrator& integrator, uint32_t samples, uint64_t seed = 1) {
   StopFlag stop;
   integrator.prepare(scene, seed, stop);
-  Film film(scene.film().crop_size.x > 0 ? scene.film().crop_size : scene.film().size, integrator.layer_names());
+  Film film(scene.film().image_size(), integrator.layer_names());
   integrator.render_pass(scene, {seed, 0, samples}, film, stop);
   return film;
 }

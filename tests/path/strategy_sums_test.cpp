@@ -18,11 +18,11 @@ struct Path {
   std::vector<bool> delta;            ///< vertices that leave no choice of direction
   std::vector<double> from_light_w;   ///< vertex i: density of the direction to i + 1, for a walk that comes from i - 1
   std::vector<double> from_sensor_w;  ///< vertex i: density of the direction to i - 1, for a walk that comes from i + 1
-  std::vector<double> towards_sensor; ///< edge i: turns 1/sr at i into 1/area at i + 1
-  std::vector<double> towards_light;  ///< edge i: turns 1/sr at i + 1 into 1/area at i
-  double start, start_w;              ///< of the light's walk: the point, and the direction
-  double direct;                      ///< next-event estimation, per area on the light
-  double sensor;                      ///< with which the sensor's walk makes vertex k - 1, per area
+  std::vector<double> towards_sensor;  ///< edge i: turns 1/sr at i into 1/area at i + 1
+  std::vector<double> towards_light;   ///< edge i: turns 1/sr at i + 1 into 1/area at i
+  double start, start_w;               ///< of the light's walk: the point, and the direction
+  double direct;                       ///< next-event estimation, per area on the light
+  double sensor;                       ///< with which the sensor's walk makes vertex k - 1, per area
   bool light_can_be_hit;
 };
 

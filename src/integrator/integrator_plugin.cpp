@@ -1,0 +1,44 @@
+#include "integrator/integrator_plugin.h"
+
+namespace turbid {
+namespace {
+
+int unlimited_if_negative(int64_t value) {
+  return value < 0 ? PathSettings::kUnlimited : static_cast<int>(std::min<int64_t>(value, PathSettings::kUnlimited));
+}
+
+}  // namespace
+
+std::vector<Parameter> with_common_parameters(std::vector<Parameter> own, const std::string& max_depth) {
+  const Range count_or_unlimited{.min = -1};
+  std::vector<Parameter> all = {
+      {"max_depth", ParameterType::kInteger, max_depth,
+       "most edges of a path from light to sensor; 1: lights only, 2: one scattering; -1: no limit",
+       count_or_unlimited},
+      {"rr_depth", ParameterType::kInteger, "5", "edges before Russian roulette begins", kNonNegative},
+      {"min_scattering", ParameterType::kInteger, "0", "least collisions in media of a path that counts", kNonNegative},
+      {"max_scattering", ParameterType::kInteger, "-1", "most collisions in media of a path that counts; -1: no limit",
+       count_or_unlimited},
+      {"hide_emitters", ParameterType::kBoolean, "false", "lights are not seen directly"},
+      {"scene_unit", ParameterType::kString, "m",
+       "length of one scene unit, for media given per mm, cm or m: mm, cm, m, or a number of metres"},
+      {"block_size", ParameterType::kInteger, "0", "accepted for Mitsuba's sake, without effect", kNonNegative},
+      {"samples_per_pass", ParameterType::kInteger, "-1", "accepted for Mitsuba's sake, without effect"},
+  };
+  all.insert(all.end(), std::make_move_iterator(own.begin()), std::make_move_iterator(own.end()));
+  return all;
+}
+
+PathSettings path_settings(const Properties& properties) {
+  PathSettings settings;
+  settings.max_depth = unlimited_if_negative(properties.integer("max_depth"));
+  settings.rr_depth = static_cast<int>(properties.integer("rr_depth"));
+  settings.min_scattering = static_cast<int>(properties.integer("min_scattering"));
+  settings.max_scattering = unlimited_if_negative(properties.integer("max_scattering"));
+  settings.hide_emitters = properties.boolean("hide_emitters");
+  if (settings.min_scattering > settings.max_scattering)
+    properties.refuse("min_scattering", "must not be above max_scattering");
+  return settings;
+}
+
+}  // namespace turbid
