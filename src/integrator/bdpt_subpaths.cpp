@@ -32,7 +32,7 @@ void LightSubpath::at_emitter(const Emission& emission, const Traveller& travell
 }
 
 void LightSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
-  current_ = arrive(event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given)), state);
+  current_ = arrive({event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given))}, state);
   if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
   vertices_.emplace_back(event, state, traveller.medium()).sums = current_;
   join_with_sensor(vertices_.back(), traveller);
@@ -40,24 +40,18 @@ void LightSubpath::at_surface(const SurfaceEvent& event, const PathState& state,
 
 void LightSubpath::at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
   Vertex& vertex = vertices_.emplace_back(event, state);
-  events_ = vertex.events;
-  vertex.sums = current_ = arrive(event.position, events_, 1, state);
+  vertex.sums = current_ = arrive({event.position, vertex.events}, state);
   join_with_sensor(vertex, traveller);
-}
-
-StrategySums LightSubpath::arrive(const Vec3& position, const Spectrum& events, float cosine,
-                                  const PathState& state) const {
-  return state.depth == 1 ? first_sums(position, events, cosine) : sums_at(position, events, cosine);
 }
 
 /// At the first vertex behind the light: next-event estimation from there, and finding the light by chance, against the
 /// start of the walk.
-StrategySums LightSubpath::first_sums(const Vec3& position, const Spectrum& events, float cosine) const {
+StrategySums LightSubpath::first_sums(const End& end) const {
   const Emission& emission = *emission_;
   const Emitter& emitter = *emission.emitter;
   const EmissionPdf& pdf = emission.ray.pdf;
   const Vec3& direction = emission.ray.direction;
-  const double arrive = end_factor(events, cosine, straight_);
+  const double arrive = end_factor(end.events, end.cosine, straight_);
   const double prob = to_double(emission.prob), direct_prob = to_double(context_.scene.choice_prob(emission.index));
   const double through = end_factor(Spectrum(1.0f), 1, straight_);
   StrategySums sums;
@@ -70,9 +64,9 @@ StrategySums LightSubpath::first_sums(const Vec3& position, const Spectrum& even
   } else if (emission.object) {
     const auto& lamp = static_cast<const SurfaceEmitter&>(emitter);
     const double here = prob * to_double(pdf.pdf_a);
-    const double inverse = inverse_square(position, emission.ray.origin);
+    const double inverse = inverse_square(end.position, emission.ray.origin);
     const double back = to_double(std::abs(dot(emission.ray.ng, direction))) * inverse;
-    const double direct_w = to_double(lamp.pdf_direct_w(position, emission.ray.origin, emission.ray.ng));
+    const double direct_w = to_double(lamp.pdf_direct_w(end.position, emission.ray.origin, emission.ray.ng));
     sums.inverse_pdf = 1 / (to_double(pdf.pdf_w) * arrive * inverse);
     sums.joint = weights_.power(direct_prob * direct_w * back / here);
     sums.behind = weights_.power(back * through / here);
@@ -81,7 +75,7 @@ StrategySums LightSubpath::first_sums(const Vec3& position, const Spectrum& even
     // direction is given.
     const bool parallel = pdf.pdf_w == 0;
     const double density =
-        parallel ? to_double(pdf.pdf_a) : to_double(pdf.pdf_w) * inverse_square(position, emission.ray.origin);
+        parallel ? to_double(pdf.pdf_a) : to_double(pdf.pdf_w) * inverse_square(end.position, emission.ray.origin);
     sums.inverse_pdf = 1 / ((density > 0 ? density : 1) * arrive);
     sums.joint = emitter.can_be_aimed_at() ? weights_.power(direct_prob / prob) : 0;
   }
@@ -127,16 +121,11 @@ void SensorSubpath::on_segment(const Ray& way, const Medium& medium, const PathS
   gather(state.throughput * leg.emission, 0, 0, state.depth + 2, state.order);
 }
 
-StrategySums SensorSubpath::arrive(const Vec3& position, const Spectrum& events, float cosine,
-                                   const PathState& state) const {
-  return state.depth == 1 ? first_sums(position, events, cosine) : sums_at(position, events, cosine);
-}
-
 /// At the first vertex: light paths that are joined with the sensor against the sensor's ray.
-StrategySums SensorSubpath::first_sums(const Vec3& position, const Spectrum& events, float cosine) const {
-  const auto way = context_.scene.sensor().connect(position, u_aperture_);
+StrategySums SensorSubpath::first_sums(const End& end) const {
+  const auto way = context_.scene.sensor().connect(end.position, u_aperture_);
   if (!way) return {};
-  return {1 / (to_double(context_.sensor.pdf(*way)) * end_factor(events, cosine, straight_)), 1, 0};
+  return {1 / (to_double(context_.sensor.pdf(*way)) * end_factor(end.events, end.cosine, straight_)), 1, 0};
 }
 
 void SensorSubpath::at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
@@ -148,7 +137,7 @@ void SensorSubpath::at_light(const Hit& hit, const Object& object, const Surface
   if (Le.is_black()) return;
   const size_t index = context_.scene.emitter_index(hit);
   const float cosine = std::abs(dot(point.ng, wo));
-  const StrategySums sums = arrive(point.p, Spectrum(1.0f), cosine, state);
+  const StrategySums sums = arrive({point.p, Spectrum(1.0f), cosine}, state);
   const EmissionPdf emission = emitter.emission_pdf(point.ng, wo);
   const double start = to_double(context_.sources.prob(index)) * to_double(emission.pdf_a) * sums.inverse_pdf;
   double others = weights_.power(start);
@@ -156,8 +145,8 @@ void SensorSubpath::at_light(const Hit& hit, const Object& object, const Surface
     others *= sums.joint;
   } else {
     const double direct_a = to_double(context_.scene.choice_prob(index)) *
-                            to_double(emitter.pdf_direct_w(last_position_, point.p, point.ng)) * to_double(cosine) *
-                            inverse_square(point.p, last_position_);
+                            to_double(emitter.pdf_direct_w(last_.position, point.p, point.ng)) * to_double(cosine) *
+                            inverse_square(point.p, last_.position);
     others = weights_.power(direct_a * sums.inverse_pdf) * sums.joint +
              others * weights_.power(to_double(emission.pdf_w)) * sums.behind;
   }
@@ -178,7 +167,7 @@ void SensorSubpath::at_escape(const PathState& state, const Traveller& traveller
       if (const auto way = context_.scene.sensor().connect_to_infinity(direction, u_aperture_))
         others = weights_.power(start / (to_double(context_.sensor.pdf(*way)) * through));
     } else {
-      const StrategySums sums = weights_.next(last_, departure_, through, back_factor());
+      const StrategySums sums = weights_.next(last_sums_, departure_, through, back_factor());
       const double direct_w = to_double(sky.prob) * to_double(sky.emitter->pdf_direct_w(direction));
       others = weights_.power(direct_w * sums.inverse_pdf) * sums.joint +
                weights_.power(start * sums.inverse_pdf) * weights_.power(to_double(emission.pdf_a)) * sums.behind;
@@ -188,7 +177,7 @@ void SensorSubpath::at_escape(const PathState& state, const Traveller& traveller
 }
 
 void SensorSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
-  current_ = arrive(event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given)), state);
+  current_ = arrive({event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given))}, state);
   if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
   Vertex vertex(event, state, traveller.medium());
   vertex.sums = current_;
@@ -198,8 +187,7 @@ void SensorSubpath::at_surface(const SurfaceEvent& event, const PathState& state
 
 void SensorSubpath::at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
   Vertex vertex(event, state);
-  events_ = vertex.events;
-  vertex.sums = current_ = arrive(event.position, events_, 1, state);
+  vertex.sums = current_ = arrive({event.position, vertex.events}, state);
   if (!traveller.blind()) estimate_direct(vertex, traveller);
   join(vertex, traveller);
 }

@@ -20,7 +20,7 @@ struct BdptContext {
 };
 
 /// The subpath from a light: keeps its vertices, and joins each with the sensor (t = 1).
-class LightSubpath : public SubpathRecorder {
+class LightSubpath : public SubpathRecorder<TransportMode::kImportance> {
  public:
   explicit LightSubpath(const BdptContext& context) : SubpathRecorder(context.weights), context_(context) {}
 
@@ -33,29 +33,23 @@ class LightSubpath : public SubpathRecorder {
   void at_emitter(const Emission& emission, const Traveller& traveller);
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
-  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState&) {
-    depart(event, sample, chosen, current_, TransportMode::kImportance);
-  }
-  void left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState&, const Traveller&) {
-    depart(event, mu, current_, events_);
-  }
 
  private:
-  StrategySums arrive(const Vec3& position, const Spectrum& events, float cosine, const PathState& state) const;
-  StrategySums first_sums(const Vec3& position, const Spectrum& events, float cosine) const;
+  StrategySums arrive(const End& end, const PathState& state) const {
+    return state.depth == 1 ? first_sums(end) : sums_at(end);
+  }
+  StrategySums first_sums(const End& end) const;
   void join_with_sensor(const Vertex& vertex, const Traveller& traveller);
 
   const BdptContext& context_;
   ContributionSink* sink_ = nullptr;
   std::vector<Vertex> vertices_;
   std::optional<Emission> emission_;
-  StrategySums current_;
-  Spectrum events_;
 };
 
 /// The subpath from the sensor: at each vertex it asks for light (s = 1) and joins the vertices of a light subpath
 /// (s >= 2); lights met by chance are s = 0.
-class SensorSubpath : public SubpathRecorder {
+class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
  public:
   SensorSubpath(const BdptContext& context, Sampler& sampler, const std::vector<Vertex>& light_vertices)
       : SubpathRecorder(context.weights), context_(context), sampler_(sampler), light_vertices_(light_vertices) {}
@@ -74,16 +68,12 @@ class SensorSubpath : public SubpathRecorder {
   void at_escape(const PathState& state, const Traveller& traveller);
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
-  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState&) {
-    depart(event, sample, chosen, current_, TransportMode::kRadiance);
-  }
-  void left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState&, const Traveller&) {
-    depart(event, mu, current_, events_);
-  }
 
  private:
-  StrategySums arrive(const Vec3& position, const Spectrum& events, float cosine, const PathState& state) const;
-  StrategySums first_sums(const Vec3& position, const Spectrum& events, float cosine) const;
+  StrategySums arrive(const End& end, const PathState& state) const {
+    return state.depth == 1 ? first_sums(end) : sums_at(end);
+  }
+  StrategySums first_sums(const End& end) const;
   void gather(const Spectrum& value, double others, int light_vertices, int sensor_vertices, int order);
   void estimate_direct(const Vertex& vertex, const Traveller& traveller);
   double others_of_direct(const Vertex& vertex, const EmitterChoice& choice, const DirectLightSample& light,
@@ -96,8 +86,6 @@ class SensorSubpath : public SubpathRecorder {
   ContributionSink* sink_ = nullptr;
   Vec2 u_aperture_;
   Rng selection_;
-  StrategySums current_;
-  Spectrum events_;
 };
 
 }  // namespace turbid

@@ -51,13 +51,7 @@ TEST(Bdpt, BalanceHeuristicAndFewConnections) {
 }
 
 TEST(Bdpt, FilterAndCropOfTheFilm) {
-  const std::string cropped = R"(<sensor type="perspective"><float name="fov" value="45"/>
-    <transform name="to_world"><lookat origin="0, -6, 2" target="0, 0, 0.5" up="0, 0, 1"/></transform>
-    <film type="hdrfilm"><integer name="width" value="32"/><integer name="height" value="24"/>
-    <integer name="crop_offset_x" value="10"/><integer name="crop_offset_y" value="4"/>
-    <integer name="crop_width" value="16"/><integer name="crop_height" value="16"/>
-    <rfilter type="gaussian"/></film></sensor>)";
-  expect_agreement(scene(kLamp + kFloor + fog(), integer("max_depth", 5), cropped), {"volpath", 64},
+  expect_agreement(scene(kLamp + kFloor + fog(), integer("max_depth", 5), kCropped), {"volpath", 64},
                    {"bdpt", 16, 1, 2});
 }
 

@@ -20,6 +20,12 @@ const std::string kPinholeInMedium =
 const std::string kThinLens =
     R"(<sensor type="thinlens"><float name="aperture_radius" value="0.4"/><float name="focus_distance" value="4"/>)" +
     kView + kFilm + "</sensor>";
+const std::string kCropped = R"(<sensor type="perspective"><float name="fov" value="45"/>
+  <transform name="to_world"><lookat origin="0, -6, 2" target="0, 0, 0.5" up="0, 0, 1"/></transform>
+  <film type="hdrfilm"><integer name="width" value="32"/><integer name="height" value="24"/>
+  <integer name="crop_offset_x" value="10"/><integer name="crop_offset_y" value="4"/>
+  <integer name="crop_width" value="16"/><integer name="crop_height" value="16"/>
+  <rfilter type="gaussian"/></film></sensor>)";
 const std::string kFloor = R"(<shape type="rectangle"><transform name="to_world"><scale value="3"/></transform>
   <bsdf type="diffuse"><rgb name="reflectance" value="0.7, 0.5, 0.3"/></bsdf></shape>)";
 const std::string kLamp = R"(<shape type="sphere"><point name="center" value="0.5, 0.3, 2"/>

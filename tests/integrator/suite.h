@@ -9,8 +9,8 @@ namespace turbid::testing {
 /// side, with something in between. 16 x 16 pixels.
 namespace pieces {
 
-extern const std::string kFilm, kPinhole, kThinLens, kFloor, kLamp, kMiddleLamp, kSmallLamp, kPoint, kSpot, kSky, kSun,
-    kLaser;
+extern const std::string kFilm, kPinhole, kThinLens, kCropped, kFloor, kLamp, kMiddleLamp, kSmallLamp, kPoint, kSpot,
+    kSky, kSun, kLaser;
 /// A pinhole whose near plane clips collisions (not attenuation): without it their 1/distance^2 has no variance in
 /// light tracing.
 extern const std::string kPinholeInMedium;
