@@ -92,7 +92,7 @@ void print_lights(const Scene& scene, const SceneNode& root) {
 void print_advice(const Scene& scene, const IntegratorDescription& description, const Integrator& integrator) {
   const Advice advice = suggest_integrator(scene);
   fmt::print(kLine, "suited", fmt::format("{}: {}", advice.integrator, advice.why));
-  std::vector<std::string> warnings = advice.limits;
+  std::vector<std::string> warnings = missed_light(description, integrator, scene);
   if (const std::string ignored = ignored_media(description, integrator, scene); !ignored.empty())
     warnings.push_back(ignored);
   for (std::string& finding : check_scene(scene)) warnings.push_back(std::move(finding));

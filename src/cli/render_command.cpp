@@ -102,6 +102,7 @@ int run_render(const RenderWords& words, const CommandLine& line) {
   LoadedScene loaded = open_scene(words.scene);
   const IntegratorSetup setup = make_integrator(loaded.integrator, loaded.document.get());
   const Scene scene(std::move(loaded.parts));
+  for (const std::string& missed : missed_light(loaded.integrator, *setup.integrator, scene)) log_warning(missed);
   if (const std::string ignored = ignored_media(loaded.integrator, *setup.integrator, scene); !ignored.empty())
     log_warning(ignored);
   const RenderOptions options = render_options(words, loaded, scene, setup.second_moment, line);

@@ -1,6 +1,5 @@
 #include "integrator/particle_tracer.h"
 
-#include "core/log.h"
 #include "path/sensor_connector.h"
 #include "path/walk.h"
 
@@ -57,13 +56,6 @@ class LightSplatter : public WalkRecorder {
 };
 
 }  // namespace
-
-void ParticleTracer::prepare_workers(const Scene& scene) {
-  sources_.emplace(scene, true);
-  for (const Surroundings& m : scene.media())
-    if (m.medium->emits())
-      log_warning("ptracer does not follow the light of glowing media: it is missing in the picture");
-}
 
 std::unique_ptr<SplattingIntegrator::Worker> ParticleTracer::make_worker(const Scene& scene, uint64_t seed,
                                                                          SampleCounters& counters) const {

@@ -23,7 +23,7 @@ class ParticleTracer : public SplattingIntegrator {
 
  protected:
   std::unique_ptr<Worker> make_worker(const Scene& scene, uint64_t seed, SampleCounters& counters) const override;
-  void prepare_workers(const Scene& scene) override;
+  void prepare_workers(const Scene& scene) override { sources_.emplace(scene, true); }
 
  private:
   PathSettings settings_;

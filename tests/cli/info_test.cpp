@@ -88,8 +88,15 @@ TEST_F(Info, WarnsOfLightsThatCannotBeFound) {
   expect_words(about("<emitter type=\"point\"><point name=\"position\" value=\"0,5,0\"/></emitter><shape "
                      "type=\"sphere\"><bsdf type=\"dielectric\"/>" +
                      kFog + "</shape>"),
-               "warning      point, spot and directional lights cannot be met by chance: the media behind smooth glass "
-               "stay dark under them; give the light a size or the boundary a roughness\n");
+               "warning      integrator 'volpath' misses the light of point, spot and directional lights that comes "
+               "through smooth glass or off mirrors: 'bdpt' finds it\n");
+  const std::string lamp_in_glass = about(
+      "<shape type=\"sphere\"><bsdf type=\"dielectric\"/></shape><shape type=\"sphere\"><float name=\"radius\" "
+      "value=\"0.1\"/><emitter type=\"area\"/></shape><shape type=\"sphere\"><float name=\"radius\" value=\"9\"/>" +
+      kNull + kFog + "</shape>");
+  expect_words(lamp_in_glass, "suited       bdpt: a light stands behind smooth glass");
+  expect_words(about("<emitter type=\"collimated\"/>"),
+               "warning      integrator 'volpath' misses the light of collimated beams: 'bdpt' finds it\n");
   expect_words(about("<shape type=\"sphere\"/>"), "warning      nothing shines: the picture will be black\n");
 }
 

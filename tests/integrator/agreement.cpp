@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "integrator/advice.h"
 #include "integrator/camera_sample.h"
 
 namespace turbid::testing {
@@ -50,19 +51,11 @@ std::vector<bool> find_specular_blocks(const Scene& scene, int block) {
 
 /// Cuts out of the support what the scene does not ask for, so that two supports differ only where it matters.
 PathSupport support_in(const Scene& scene, const PathSupport& support) {
-  bool specular = false, delta = false, beams = false, glows = false;
-  for (const Object& object : scene.objects())
-    specular = specular || (is_specular(*object.bsdf) &&
-                            object.bsdf->flags() != (lobe::kNull | lobe::kDelta | lobe::kTransmission));
-  for (const Emitter* emitter : scene.emitters()) {
-    delta = delta || !emitter->can_be_hit();
-    beams = beams || !emitter->can_be_aimed_at();
-  }
-  for (const Surroundings& m : scene.media()) glows = glows || m.medium->emits();
+  const PathSupport asked = asked_for(scene);
   return {.specular_at_sensor = support.specular_at_sensor,
-          .specular_at_delta_light = support.specular_at_delta_light || !(specular && delta),
-          .beams = support.beams || !beams,
-          .glowing_media = support.glowing_media || !glows};
+          .specular_at_delta_light = support.specular_at_delta_light || !asked.specular_at_delta_light,
+          .beams = support.beams || !asked.beams,
+          .glowing_media = support.glowing_media || !asked.glowing_media};
 }
 
 std::string difference(const PathSupport& a, const PathSupport& b) {
