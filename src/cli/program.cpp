@@ -71,6 +71,7 @@ int run(int argc, const char* const* argv) {
   app.get_formatter()->column_width(34);
   const std::vector<std::pair<std::string, Command>> commands = {{"render", add_render_command(app)},
                                                                  {"compare", add_compare_command(app)},
+                                                                 {"layers", add_layers_command(app)},
                                                                  {"info", add_info_command(app)},
                                                                  {"list", add_list_command(app)}};
   try {

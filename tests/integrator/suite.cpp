@@ -119,8 +119,8 @@ std::vector<SuiteScene> suite() {
       {"chromatic medium", scene(kLamp + fog(2.2f, "0.1, 0.6, 2.5"), max5)},
       {"heterogeneous medium", scene(kLamp + kFloor + ball("0, 0, 0.5", 2.2f, smoke), max5)},
       {"rough glass", scene(kLamp + kFloor + ball("0.2, -0.8, 1", 0.9f, rough), max4)},
-      {"rough glass with murk", scene(kLamp + kFloor + ball("0.2, -0.8, 1", 0.9f, rough + murk), max6)},
-      {"smooth glass with murk", scene(kLamp + kFloor + glass("0.2, -0.8, 1", 0.9f, murk), max6)},
+      {"rough glass with murk", scene(kLamp + kFloor + ball("0.2, -0.8, 1", 0.9f, rough + murk), max6), 8, 2},
+      {"smooth glass with murk", scene(kLamp + kFloor + glass("0.2, -0.8, 1", 0.9f, murk), max6), 8, 2},
       {"index-matched glass with murk",
        scene(kLamp + kFloor + ball("0.2, -0.8, 1", 0.9f, R"(<bsdf type="dielectric"><float name="int_ior" value="1"/>
              <float name="ext_ior" value="1"/></bsdf>)" + murk),
