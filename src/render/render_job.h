@@ -22,6 +22,9 @@ struct RenderTask {
 /// Both must outlive the task.
 RenderTask make_task(const Scene& scene, Integrator& integrator);
 
+/// Names of the layers of a film that takes what the integrator makes. Throws SceneError when one of them is taken.
+std::vector<std::string> film_layers(const Scene& scene, const Integrator& integrator);
+
 /// The image that a scene's film exposes: its crop window, or all of it.
 Vec2i image_size(const FilmSettings& film);
 
