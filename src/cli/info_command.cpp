@@ -116,8 +116,8 @@ void print_film(const Scene& scene) {
 /// What a render will need: the scene as it stands in memory now, and the films of total, pass and snapshot.
 void print_memory(const Scene& scene, const Integrator& integrator) {
   const Vec2i size = scene.film().image_size();
-  const double films =
-      3.0 * size.x * size.y * static_cast<double>(sizeof(PixelSums) + sizeof(double) * integrator.layer_names().size());
+  const double films = 3.0 * size.x * size.y *
+                       static_cast<double>(sizeof(PixelSums) + sizeof(double) * film_layers(scene, integrator).size());
   fmt::print(kLine, "memory",
              fmt::format("about {} to render", memory(films + static_cast<double>(process_peak_memory()))));
 }

@@ -64,6 +64,7 @@ RenderOptions render_options(const RenderWords& words, const LoadedScene& loaded
   output.exposure = words.exposure;
   output.variance = words.variance;
   output.alpha = scene.film().alpha;
+  output.outliers = scene.film().outliers;
   if (second_moment) output.moment_name = moment_name(*loaded.integrator.node);
   if (scene.film().crop_size.x > 0) {
     output.crop_offset = scene.film().crop_offset;

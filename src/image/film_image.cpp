@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "image/cascades.h"
 #include "image/color.h"
 
 namespace turbid {
@@ -27,7 +28,10 @@ XyzMoments xyz_moments(const PixelSums& sums, double samples) {
   return moments;
 }
 
-/// The image with room for more channels after its own.
+double sample_count(const Film& film) { return static_cast<double>(std::max<uint64_t>(film.samples(), 1)); }
+
+}  // namespace
+
 Image with_channels(const Image& image, const std::vector<std::string>& more) {
   std::vector<std::string> names = image.channel_names();
   names.insert(names.end(), more.begin(), more.end());
@@ -38,10 +42,6 @@ Image with_channels(const Image& image, const std::vector<std::string>& more) {
   for (size_t c = 0; c < image.channel_count(); ++c) std::ranges::copy(image.channel(c), result.channel(c).begin());
   return result;
 }
-
-double sample_count(const Film& film) { return static_cast<double>(std::max<uint64_t>(film.samples(), 1)); }
-
-}  // namespace
 
 Image film_to_image(const Film& film, bool alpha) {
   std::vector<std::string> names{"R", "G", "B"};
@@ -58,9 +58,11 @@ Image film_to_image(const Film& film, bool alpha) {
 
 Image with_layers(const Image& image, const Film& film) {
   const size_t first = image.channel_count();
-  Image result = with_channels(image, film.layer_names());
+  std::vector<std::string> names = film.layer_names();
+  std::erase_if(names, Cascades::is_cascade);  // they are the last ones
+  Image result = with_channels(image, names);
   const double n = sample_count(film);
-  for (size_t c = 0; c < film.layer_names().size(); ++c)
+  for (size_t c = 0; c < names.size(); ++c)
     for (size_t i = 0; i < film.pixel_count(); ++i)
       result.channel(first + c)[i] = static_cast<float>(film.layers(i)[c] / n);
   return result;

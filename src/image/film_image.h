@@ -9,7 +9,10 @@ namespace turbid {
 /// The mean radiance per pixel as R, G, B, and with `alpha` also A (radiance is multiplied by it already).
 Image film_to_image(const Film& film, bool alpha);
 
-/// The image followed by the means of the film's layers, as channels of their names.
+/// The image with room for more channels after its own; they are 0.
+Image with_channels(const Image& image, const std::vector<std::string>& more);
+
+/// The image followed by the means of the film's layers, as channels of their names; without its cascades.
 Image with_layers(const Image& image, const Film& film);
 
 /// The unbiased variance of one sample of each pixel, (n E[x^2] - n E[x]^2)/(n - 1), 0 for n = 1. As in the references

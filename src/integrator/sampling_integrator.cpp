@@ -47,6 +47,7 @@ bool SamplingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film&
 void SamplingIntegrator::render_tile(const Scene& scene, const Pass& pass, const Vec2i& from, const Vec2i& to,
                                      Film& film, SampleCounters& counters, const StopFlag& stop) const {
   Sampler sampler(scene.sampler(), pass.seed);
+  const std::optional<Cascades> cascades = Cascades::in(film, scene.film().outliers);
   for (int y = from.y; y < to.y; ++y) {
     for (int x = from.x; x < to.x; ++x) {
       if (stop.requested()) return;
@@ -59,6 +60,7 @@ void SamplingIntegrator::render_tile(const Scene& scene, const Pass& pass, const
         const PixelSample sample = sample_radiance(scene, camera, sampler, counters);
         if (is_valid(sample.radiance)) {
           sums.add(sample);
+          if (cascades) cascades->add(layers, sample.radiance);
           for (const OrderLayer& layer : order_layers_)
             for (int order = layer.min_order; order <= layer.max_order; ++order)
               for (int c = 0; c < kChannels; ++c)

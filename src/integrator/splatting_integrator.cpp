@@ -42,7 +42,8 @@ class SplattingIntegrator::PilotSink final : public ContributionSink {
 /// What is splatted in one sample of all pixels: the picture, and each layer on its own.
 struct SplattingIntegrator::Splats {
   SplatBuffer picture;
-  std::map<size_t, SplatBuffer> layers;  ///< by the channel that each begins at
+  std::map<size_t, SplatBuffer> layers{};  ///< by the channel that each begins at
+  std::optional<Cascades> cascades{};      ///< each splat is a sample of its own there
 };
 
 class SplattingIntegrator::PassSink final : public ContributionSink {
@@ -54,7 +55,12 @@ class SplattingIntegrator::PassSink final : public ContributionSink {
     pixel_ = pixel;
     sample_ = {};
   }
-  PixelSample& sample() { return sample_; }
+  /// Ends the pixel's sample. What was gathered for it is one sample of the cascades: its parts share a path and come
+  /// together, so that many of them are no evidence for each other.
+  const PixelSample& end() {
+    if (splats_.cascades) splats_.cascades->add(film_.layers(pixel_), sample_.radiance);
+    return sample_;
+  }
 
   void gather(const Contribution& contribution) override {
     const Spectrum value = contribution.value * contribution.weight;
@@ -68,6 +74,9 @@ class SplattingIntegrator::PassSink final : public ContributionSink {
     const Spectrum value = contribution.value * contribution.weight;
     if (drop(value)) return;
     splats_.picture.add(pixel, value);
+    if (splats_.cascades)
+      for (const CascadeShare& share : splats_.cascades->split(value))
+        splats_.layers.at(share.channel).add(pixel, share.value);
     for_layers(contribution, value,
                [&](size_t channel, const Spectrum& part) { splats_.layers.at(channel).add(pixel, part); });
   }
@@ -141,7 +150,10 @@ void SplattingIntegrator::prepare(const Scene& scene, uint64_t seed, const StopF
 }
 
 bool SplattingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) {
-  Splats splats{SplatBuffer(film.size(), largest_exponent_), {}};
+  Splats splats{SplatBuffer(film.size(), largest_exponent_)};
+  splats.cascades = Cascades::in(film, scene.film().outliers);
+  for (size_t cascade = 0; splats.cascades && cascade < Cascades::kCount; ++cascade)
+    splats.layers.try_emplace(splats.cascades->channel(cascade), film.size(), largest_exponent_);
   for (const OrderLayer& layer : order_layers_)
     splats.layers.try_emplace(layer.channel, film.size(), largest_exponent_);
   for (int edges = 1; edges <= shown_edges_; ++edges)
@@ -162,7 +174,7 @@ bool SplattingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film
       for (size_t pixel = task * kGrain; pixel < std::min(pixels, (task + 1) * kGrain); ++pixel) {
         sink.begin(pixel);
         const float alpha = worker->run(pixel, index, sink);
-        gathered[pixel] = sink.sample();
+        gathered[pixel] = sink.end();
         gathered[pixel].alpha = alpha;
       }
       add_counters(counters);

@@ -7,6 +7,7 @@
 #include "image/atomic_file.h"
 #include "image/film_image.h"
 #include "image/image_file.h"
+#include "image/outlier_rejection.h"
 #include "render/pass_plan.h"
 
 namespace turbid {
@@ -28,6 +29,12 @@ void describe_image(Image& image, const OutputSettings& settings, const Film& fi
   image.metadata["seconds"] = fmt::format("{:.3f}", seconds);
 }
 
+std::string describe_rejection(const OutlierSettings& settings, const Image& image) {
+  return fmt::format(
+      "reweight start={:.6g} base={:.6g} kappa={:.6g}: takes {:.5f} of the light; the mean is in unweighted.*",
+      settings.start, settings.base, settings.kappa, rejected_share(image));
+}
+
 }  // namespace
 
 std::string OutputSettings::png_path() const { return beside(path, ".png"); }
@@ -38,7 +45,9 @@ std::vector<std::string> write_output(const OutputSettings& settings, const Film
   std::vector<std::string> written;
   if (settings.path.empty()) return written;
   Image image = film_to_image(film, settings.alpha);
+  if (settings.outliers) image = reject_outliers(image, film, *settings.outliers);
   describe_image(image, settings, film, seconds);
+  if (settings.outliers) image.metadata["outlier_rejection"] = describe_rejection(*settings.outliers, image);
   const Image layered = with_layers(image, film);
   if (settings.moment_name.empty())
     write_exr(settings.path, layered);

@@ -1,8 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "image/film.h"
+#include "image/cascades.h"
 #include "image/image.h"
 
 namespace turbid {
@@ -15,9 +16,10 @@ struct OutputSettings {
   bool alpha = false;       ///< an alpha channel
   bool variance = false;    ///< per-sample variance in NAME_var.exr (see variance_image)
   std::string moment_name;  ///< not empty: the layers of Mitsuba's `moment` integrator under this name
-  Vec2i crop_offset{0, 0};  ///< of the first pixel on the whole film
-  Vec2i film_size{0, 0};    ///< of the whole film; 0: no crop
-  Metadata metadata;        ///< scene, command, version, integrator, seed; passes, samples, seconds are added
+  std::optional<OutlierSettings> outliers{};  ///< take outliers from the picture (see reject_outliers)
+  Vec2i crop_offset{0, 0};                    ///< of the first pixel on the whole film
+  Vec2i film_size{0, 0};                      ///< of the whole film; 0: no crop
+  Metadata metadata;  ///< scene, command, version, integrator, seed; passes, samples, seconds are added
 
   std::string png_path() const;
   std::string variance_path() const;

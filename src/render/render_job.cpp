@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/log.h"
+#include "image/outlier_rejection.h"
 #include "render/checkpoint.h"
 #include "render/progress.h"
 #include "render/signals.h"
@@ -214,13 +215,26 @@ class Job {
 
 }  // namespace
 
+std::vector<std::string> film_layers(const Scene& scene, const Integrator& integrator) {
+  std::vector<std::string> names = integrator.layer_names();
+  if (!scene.film().outliers) return names;
+  for (const char* taken : kUnweightedNames)
+    if (std::ranges::find(names, taken) != names.end())
+      throw SceneError(
+          fmt::format("layer '{}' of the integrator needs another name: outlier_rejection of the film "
+                      "writes one of that name",
+                      taken));
+  for (std::string& name : Cascades::layer_names()) names.push_back(std::move(name));
+  return names;
+}
+
 RenderTask make_task(const Scene& scene, Integrator& integrator) {
   return {scene.film().image_size(),
           [&](uint64_t seed, const StopFlag& stop) { integrator.prepare(scene, seed, stop); },
           [&](const Pass& pass, Film& film, const StopFlag& stop) {
             return integrator.render_pass(scene, pass, film, stop);
           },
-          [&] { return integrator.counters(); }, integrator.layer_names()};
+          [&] { return integrator.counters(); }, film_layers(scene, integrator)};
 }
 
 RenderResult render(const RenderTask& task, const RenderOptions& options) { return Job(task, options).run(); }

@@ -22,6 +22,9 @@ struct RenderTask {
 /// Both must outlive the task.
 RenderTask make_task(const Scene& scene, Integrator& integrator);
 
+/// Names of the layers of a film that takes what the integrator makes. Throws SceneError when one of them is taken.
+std::vector<std::string> film_layers(const Scene& scene, const Integrator& integrator);
+
 struct RenderOptions {
   Budget budget;
   uint64_t seed = 0;

@@ -11,6 +11,7 @@ using enum ParameterType;
 
 constexpr Range kPixels{1, 1 << 20};
 constexpr Range kOffset{0, 1 << 20};
+constexpr Range kSteps{2, 64};
 
 int pixels(const Properties& p, const char* name) { return static_cast<int>(p.integer(name)); }
 
@@ -28,6 +29,8 @@ FilmSettings make_film(const Properties& p, Builder& b) {
   }
   const std::string format = p.string("pixel_format");
   film.alpha = format == "rgba" || format == "luminance_alpha" || format == "xyza";
+  if (p.string("outlier_rejection") == "reweight")
+    film.outliers = {p.number("outlier_start"), p.number("outlier_base"), p.number("outlier_kappa")};
   const SceneNode* filter = p.child("rfilter");
   film.filter = filter ? filter_table().make(*filter, &b.document(), b)
                        : ReconstructionFilter(ReconstructionFilter::Kind::kGaussian, 0.5f);
@@ -61,6 +64,16 @@ const FilmTable& film_table() {
                         .default_text = "rgb",
                         .meaning = "with alpha or without; colours are always RGB",
                         .choices = {"rgb", "rgba", "luminance", "luminance_alpha", "xyz", "xyza"}},
+                       {.name = "outlier_rejection",
+                        .type = kString,
+                        .default_text = "none",
+                        .meaning = "reweight: weighs fireflies down by how few samples are like them (Zirr et al. "
+                                   "2018); darker where samples are few, and the mean is kept in layers unweighted.*",
+                        .choices = {"none", "reweight"}},
+                       {"outlier_start", kFloat, "1", "luminance that no outlier lies below", kPositive},
+                       {"outlier_base", kFloat, "8", "ratio of the steps by which samples are told apart", kSteps},
+                       {"outlier_kappa", kFloat, "1",
+                        "samples of a kind that make it trusted; more: darker, less noise", kPositive},
                        {"file_format", kString, "openexr", "accepted; always OpenEXR"},
                        {"component_format", kString, "float32", "accepted; always float32"},
                        {"filename", kString, kOptional, "accepted; -o names the file"},

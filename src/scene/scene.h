@@ -1,11 +1,13 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/distribution.h"
 #include "emitter/emitter.h"
 #include "geometry/ray_caster.h"
+#include "image/cascades.h"
 #include "image/filter.h"
 #include "medium/medium.h"
 #include "scene/medium_stack.h"
@@ -38,7 +40,8 @@ struct FilmSettings {
   Vec2i crop_offset{0, 0};
   Vec2i crop_size{0, 0};  ///< 0: no crop, the whole film
   ReconstructionFilter filter;
-  bool alpha = false;  ///< write an alpha channel
+  bool alpha = false;                         ///< write an alpha channel
+  std::optional<OutlierSettings> outliers{};  ///< take outliers from the picture
 
   /// Of the image that the film exposes: the crop window, or all of it.
   const Vec2i& image_size() const { return crop_size.x > 0 ? crop_size : size; }

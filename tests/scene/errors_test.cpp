@@ -211,6 +211,9 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"<sensor type=\"perspective\"><film type=\"hdrfilm\"><integer name=\"crop_width\" "
                   "value=\"800\"/></film></sensor>",
                   "3 test.xml:2:28: the crop window does not lie inside the film"},
+        Malformed{"<sensor type=\"perspective\"><film type=\"hdrfilm\"><float name=\"outlier_base\" "
+                  "value=\"1\"/></film></sensor>",
+                  "3 test.xml:2:83: 'outlier_base' of film 'hdrfilm' is 1, expected a number in [2, 64]"},
         Malformed{"<sensor type=\"perspective\"><film type=\"hdrfilm\"><rfilter type=\"lanczos\"/></film></sensor>",
                   "3 test.xml:2:49: rfilter 'lanczos' is not supported"}));
 

@@ -32,6 +32,23 @@ void expect_near(const Spectrum& value, const Spectrum& expected) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(value[c], expected[c], 1e-5f * std::abs(expected[c])) << "channel " << c;
 }
 
+TEST(Loader, ReadsOutlierRejectionOfTheFilm) {
+  const auto film_with = [](const std::string& values) {
+    return load("<sensor type=\"perspective\"><film type=\"hdrfilm\">" + values + "</film></sensor>").parts.film;
+  };
+  EXPECT_FALSE(film_with("<string name=\"outlier_rejection\" value=\"none\"/>").outliers);
+  const FilmSettings plain = film_with("<string name=\"outlier_rejection\" value=\"reweight\"/>");
+  EXPECT_EQ(plain.outliers->start, 1);
+  EXPECT_EQ(plain.outliers->base, 8);
+  EXPECT_EQ(plain.outliers->kappa, 1);
+  const FilmSettings own = film_with(
+      "<string name=\"outlier_rejection\" value=\"reweight\"/><float name=\"outlier_start\" value=\"0.5\"/>"
+      "<float name=\"outlier_base\" value=\"4\"/><float name=\"outlier_kappa\" value=\"2\"/>");
+  EXPECT_EQ(own.outliers->start, 0.5);
+  EXPECT_EQ(own.outliers->base, 4);
+  EXPECT_EQ(own.outliers->kappa, 2);
+}
+
 TEST(Loader, ReadsAWholeScene) {
   const LoadedScene scene = load(
       "<default name=\"spp\" value=\"8\"/><integrator type=\"volpath\"><integer name=\"max_depth\" value=\"7\"/>"
@@ -57,6 +74,7 @@ TEST(Loader, ReadsAWholeScene) {
   EXPECT_EQ(scene.parts.film.crop_offset, Vec2i(0, 4));
   EXPECT_EQ(scene.parts.film.crop_size, Vec2i(10, 28));
   EXPECT_TRUE(scene.parts.film.alpha);
+  EXPECT_FALSE(scene.parts.film.outliers);
   EXPECT_EQ(scene.parts.sampler, SamplerKind::kSobol);
   EXPECT_EQ(scene.parts.sample_count, 32u);
   EXPECT_TRUE(scene.integrator.declared);
