@@ -12,7 +12,7 @@
 namespace turbid::testing {
 namespace {
 
-const std::vector<Contestant> kContestants = {{"volpath", 1280, 1, 1}, {"ptracer", 1280, 1, 2}, {"bdpt", 640, 1, 3}};
+const std::vector<Contestant> kContestants = {{"volpath", 640, 1, 1}, {"ptracer", 640, 1, 2}, {"bdpt", 320, 1, 3}};
 
 std::string cell(const Agreement& agreement, size_t comparisons) {
   if (!agreement.cannot.empty()) return agreement.cannot;
