@@ -69,19 +69,6 @@ Film render_bdpt(const std::string& xml, const std::string& settings, uint32_t s
   return render_with(Scene(std::move(loaded.parts)), *setup.integrator, samples);
 }
 
-TEST(Bdpt, ScatteringOrdersAddUpToTheFullImage) {
-  const auto render_orders = [&](const std::string& limits) {
-    return render_bdpt(scene(kLamp + kFloor + fog(), integer("max_depth", 8) + limits), "", 16);
-  };
-  const Film full = render_orders("");
-  Film sum(full.size());
-  for (int order = 0; order < 8; ++order)
-    sum.add(render_orders(integer("min_scattering", order) + integer("max_scattering", order)));
-  for (size_t i = 0; i < full.pixel_count(); ++i)
-    for (int c = 0; c < kChannels; ++c)
-      EXPECT_NEAR(sum.pixel(i).radiance[c], full.pixel(i).radiance[c], 1e-4 * (1 + full.pixel(i).radiance[c]));
-}
-
 // Weighted layers add up to the picture; each plain layer that stands alone is an estimate of the same light.
 TEST(Bdpt, StrategiesAddUpToTheImage) {
   const std::string xml = scene(kLamp + kFloor + fog(), integer("max_depth", 4));

@@ -65,6 +65,13 @@ std::string fog(float radius, const std::string& sigma_t) {
   return ball("0, 0, 0.5", radius, R"(<bsdf type="null"/>)" + medium("interior", sigma_t, "0.9, 0.8, 0.7"));
 }
 
+std::string smoke() {
+  return ball("0, 0, 0.5", 2.2f, R"(<bsdf type="null"/><medium name="interior" type="heterogeneous">
+    <volume name="sigma_t" type="constvolume"><rgb name="value" value="0.3, 0.6, 0.9"/>
+    <transform name="to_world"><scale value="2.5"/><translate x="-1.2" y="-1.2" z="-0.5"/></transform></volume>
+    <volume name="albedo" type="constvolume"><rgb name="value" value="0.9, 0.8, 0.7"/></volume></medium>)");
+}
+
 std::string glass(const std::string& center, float radius, const std::string& inside) {
   return ball(center, radius,
               R"(<bsdf type="dielectric"><float name="int_ior" value="1.4"/>
@@ -96,10 +103,6 @@ std::vector<SuiteScene> suite() {
   const std::string max5 = integer("max_depth", 5), max6 = integer("max_depth", 6), max4 = integer("max_depth", 4);
   const std::string solid = R"(<rotate z="1" angle="20"/><translate x="-0.4" y="-1" z="1"/>)";
   const std::string lens = R"(<scale value="0.5"/><rotate z="1" angle="20"/><translate x="0.3" y="0.2" z="1.05"/>)";
-  const std::string smoke = R"(<bsdf type="null"/><medium name="interior" type="heterogeneous">
-    <volume name="sigma_t" type="constvolume"><rgb name="value" value="0.3, 0.6, 0.9"/>
-    <transform name="to_world"><scale value="2.5"/><translate x="-1.2" y="-1.2" z="-0.5"/></transform></volume>
-    <volume name="albedo" type="constvolume"><rgb name="value" value="0.9, 0.8, 0.7"/></volume></medium>)";
   const std::string rough = R"(<bsdf type="roughdielectric"><float name="alpha" value="0.4"/>
     <float name="int_ior" value="1.4"/><float name="ext_ior" value="1"/></bsdf>)";
   const std::string murk = medium("interior", "1.5, 1, 0.7", "0.95, 0.9, 0.8");
@@ -117,7 +120,7 @@ std::vector<SuiteScene> suite() {
       {"sun on fog", scene(kSun + kFloor + fog(1.5f), max5)},
       {"laser in fog", scene(kLaser + kFloor + fog(1.9f), max5)},
       {"chromatic medium", scene(kLamp + fog(2.2f, "0.1, 0.6, 2.5"), max5)},
-      {"heterogeneous medium", scene(kLamp + kFloor + ball("0, 0, 0.5", 2.2f, smoke), max5)},
+      {"heterogeneous medium", scene(kLamp + kFloor + smoke(), max5)},
       {"rough glass", scene(kLamp + kFloor + ball("0.2, -0.8, 1", 0.9f, rough), max4)},
       {"rough glass with murk", scene(kLamp + kFloor + ball("0.2, -0.8, 1", 0.9f, rough + murk), max6), 8, 2},
       {"smooth glass with murk", scene(kLamp + kFloor + glass("0.2, -0.8, 1", 0.9f, murk), max6), 8, 2},

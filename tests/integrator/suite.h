@@ -19,6 +19,8 @@ std::string integer(const std::string& name, int value);
 std::string medium(const std::string& role, const std::string& sigma_t, const std::string& albedo, float g = 0.4f);
 std::string ball(const std::string& center, float radius, const std::string& content);
 std::string fog(float radius = 2.5f, const std::string& sigma_t = "0.4, 0.4, 0.4");
+/// A cloud in a box, heterogeneous, in a ball that passes light.
+std::string smoke();
 std::string glass(const std::string& center, float radius, const std::string& inside = "");
 /// A coarse ball with smooth normals, in a file of this process: shading and geometric normals are far apart.
 std::string octahedron(const std::string& placement, const std::string& bsdf);
