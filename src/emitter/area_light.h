@@ -27,6 +27,9 @@ class AreaLight final : public SurfaceEmitter {
   float pdf_direct_w(const Vec3& from, const Vec3& p, const Vec3& ng) const override {
     return shape_->pdf_direct_w(from, p, ng);
   }
+  std::optional<Spectrum> emission_towards(const EmissionSample& ray, const Vec3& direction) const override {
+    return ray.weight * (std::max(0.0f, dot(ray.ng, direction)) * kInvPi);
+  }
   Bounds3 bounds() const override { return shape_->bounds(); }
   /// pi times area times the mean radiance over the texture: exact where the texture is constant.
   Spectrum power() const override { return radiance_->mean() * (kPi * shape_->area()); }

@@ -52,6 +52,12 @@ class Emitter {
   /// belongs to the light, with geometric normal ng there (lights without a surface ignore it).
   virtual EmissionPdf emission_pdf(const Vec3& ng, const Vec3& direction) const = 0;
 
+  /// What leaves the origin of a drawn ray in another direction (unit): Le |cos| / pdf_a or intensity, W/sr. Empty for
+  /// lights whose origin does not leave the direction open: at infinity, beams.
+  virtual std::optional<Spectrum> emission_towards(const EmissionSample& /*ray*/, const Vec3& /*direction*/) const {
+    return std::nullopt;
+  }
+
   /// Can a ray meet it by chance? False for delta lights.
   virtual bool can_be_hit() const = 0;
   /// False where sample_direct never finds a direction: beams.

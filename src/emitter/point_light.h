@@ -15,6 +15,7 @@ class PointLight final : public Emitter {
   /// Uniform over the sphere of directions.
   std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
   EmissionPdf emission_pdf(const Vec3&, const Vec3&) const override { return {0, kUniformSpherePdfW}; }
+  std::optional<Spectrum> emission_towards(const EmissionSample&, const Vec3&) const override { return intensity_; }
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }
   Spectrum power() const override { return intensity_ * (4 * kPi); }

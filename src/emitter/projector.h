@@ -22,6 +22,9 @@ class Projector final : public Emitter {
   /// Uniform over the picture.
   std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
   EmissionPdf emission_pdf(const Vec3& ng, const Vec3& direction) const override;
+  std::optional<Spectrum> emission_towards(const EmissionSample&, const Vec3& direction) const override {
+    return intensity(direction);
+  }
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }
   /// Exact for a picture's true mean.

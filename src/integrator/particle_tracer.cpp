@@ -1,97 +1,73 @@
 #include "integrator/particle_tracer.h"
 
-#include "path/sensor_connector.h"
 #include "path/walk.h"
 
 namespace turbid {
 namespace {
 
-/// Joins the vertices of light paths with the sensor.
-class LightSplatter : public WalkRecorder {
+class Tracer final : public SplattingIntegrator::Worker {
  public:
-  LightSplatter(const Scene& scene, const PathSettings& settings, Sampler& sampler, SampleCounters& counters)
-      : settings_(settings), connector_(scene, static_cast<double>(pixel_count(scene.film())), sampler, counters) {}
+  Tracer(const Scene& scene, const LightSources& sources, const PathSettings& settings,
+         const CameraConnectionSettings& connection, uint64_t seed, SampleCounters& counters)
+      : sources_(sources),
+        sampler_(scene.sampler(), hash_counters(seed, kLightStream)),
+        splatter_(scene, settings, connection, sampler_, counters),
+        walk_(scene, settings, sampler_, counters, splatter_) {}
 
-  void begin(ContributionSink& sink) { sink_ = &sink; }
-
-  void at_emitter(const Emission& emission, const Traveller& traveller) {
-    if (settings_.hide_emitters || settings_.min_scattering > 0) return;
-    splat(connector_.arrive_from(emission, traveller), emission.throughput, 1, 0);
-  }
-
-  void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
-    if (!settings_.order_counts(state.order) || !(event.object.bsdf->flags() & lobe::kSmooth)) return;
-    const SurfacePoint& point = event.point;
-    const auto way = connector_.way_from(point.p);
-    if (!way) return;
-    const Vec3 wo = normalize(way->position - point.p);
-    const float correction = adjoint_correction(point, event.given, wo);
-    if (correction == 0) return;
-    const Spectrum scattered =
-        event.object.bsdf->eval(point, event.given_local, point.to_local(wo), TransportMode::kImportance).value;
-    const Spectrum flux = state.throughput * scattered * correction;
-    splat(connector_.arrive(*way, point.leave(wo), flux, traveller, &event), flux, state.depth + 1, state.order);
-  }
-
-  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-    if (!settings_.order_counts(state.order)) return;
-    const auto way = connector_.way_from(event.position);
-    if (!way) return;
-    const Vec3 wo = normalize(way->position - event.position);
-    const Spectrum flux = state.throughput * event.medium.phase().eval(dot(event.direction, wo));
-    splat(connector_.arrive(*way, event.position, flux, traveller), flux, state.depth + 1, state.order);
+  float run(size_t pixel, uint64_t index, ContributionSink& sink) override {
+    sampler_.start(pixel, index);
+    splatter_.begin(sink);
+    walk_.run(sources_);
+    return 1;
   }
 
  private:
-  void splat(const std::optional<SensorArrival>& arrival, const Spectrum& flux, int light_vertices, int order) {
-    if (!arrival) return;
-    sink_->splat(
-        connector_.index_of(arrival->target.pixel),
-        {.value = flux * arrival->weight, .light_vertices = light_vertices, .sensor_vertices = 1, .order = order});
-  }
-
-  const PathSettings& settings_;
-  SensorConnector connector_;
-  ContributionSink* sink_ = nullptr;
+  const LightSources& sources_;
+  Sampler sampler_;
+  LightSplatter splatter_;
+  LightWalk<LightSplatter> walk_;
 };
+
+/// The value of a parameter that is one of some words.
+template <class Value>
+Value one_of(const Properties& properties, const char* name, const std::map<std::string, Value>& words) {
+  const std::string word = properties.string(name);
+  const auto found = words.find(word);
+  if (found != words.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& entry : words) known.push_back(entry.first);
+  properties.refuse(name, "has the unknown value '" + word + "'" + suggestion(word, known));
+}
 
 }  // namespace
 
 std::unique_ptr<SplattingIntegrator::Worker> ParticleTracer::make_worker(const Scene& scene, uint64_t seed,
                                                                          SampleCounters& counters) const {
-  class Tracer final : public Worker {
-   public:
-    Tracer(const Scene& scene, const LightSources& sources, const PathSettings& settings, uint64_t seed,
-           SampleCounters& counters)
-        : sources_(sources),
-          sampler_(scene.sampler(), hash_counters(seed, kLightStream)),
-          splatter_(scene, settings, sampler_, counters),
-          walk_(scene, settings, sampler_, counters, splatter_) {}
-
-    float run(size_t pixel, uint64_t index, ContributionSink& sink) override {
-      sampler_.start(pixel, index);
-      splatter_.begin(sink);
-      walk_.run(sources_);
-      return 1;
-    }
-
-   private:
-    const LightSources& sources_;
-    Sampler sampler_;
-    LightSplatter splatter_;
-    LightWalk<LightSplatter> walk_;
-  };
-  return std::make_unique<Tracer>(scene, *sources_, settings_, seed, counters);
+  return std::make_unique<Tracer>(scene, *sources_, settings_, connection_, seed, counters);
 }
 
 IntegratorPlugin particle_tracer_row() {
-  return {"ptracer",
-          {},
-          "light tracing: paths from the lights, joined with the sensor; cannot see through mirrors and smooth glass",
-          with_common_parameters({}),
-          [](const Properties& properties) {
-            return IntegratorSetup{std::make_shared<ParticleTracer>(path_settings(properties)), false};
-          }};
+  return {
+      "ptracer",
+      {},
+      "light tracing: paths from the lights, joined with the sensor; cannot see through mirrors and smooth glass",
+      with_common_parameters(
+          {{"camera_connection", ParameterType::kString, "standard",
+            "how the last collision before the sensor is found: standard (by the walk), equiangular, once_more "
+            "(inserted), mis (all of them)"},
+           {"sampling", ParameterType::kString, "angle",
+            "of inserted collisions: angle (constant weight on the whole sphere) or seed (as published, forward)"}}),
+      [](const Properties& properties) {
+        const CameraConnectionSettings connection{
+            one_of<CameraConnection>(properties, "camera_connection",
+                                     {{"standard", CameraConnection::kStandard},
+                                      {"equiangular", CameraConnection::kEquiangular},
+                                      {"once_more", CameraConnection::kOnceMore},
+                                      {"mis", CameraConnection::kMis}}),
+            one_of<Insertion>(properties, "sampling",
+                              {{"angle", Insertion::kAngle}, {"seed", Insertion::kSolidAngle}})};
+        return IntegratorSetup{std::make_shared<ParticleTracer>(path_settings(properties), connection), false};
+      }};
 }
 
 }  // namespace turbid

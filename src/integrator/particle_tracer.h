@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "integrator/integrator_plugin.h"
-#include "integrator/splatting_integrator.h"
+#include "integrator/light_splatter.h"
 #include "path/light_sources.h"
 
 namespace turbid {
@@ -15,7 +15,8 @@ namespace turbid {
 /// sensor. Alpha is 1 everywhere.
 class ParticleTracer : public SplattingIntegrator {
  public:
-  explicit ParticleTracer(const PathSettings& settings) : settings_(settings) {}
+  explicit ParticleTracer(const PathSettings& settings, const CameraConnectionSettings& connection = {})
+      : settings_(settings), connection_(connection) {}
 
   PathSupport support() const override {
     return {.specular_at_sensor = false, .specular_at_delta_light = true, .beams = true, .glowing_media = false};
@@ -27,6 +28,7 @@ class ParticleTracer : public SplattingIntegrator {
 
  private:
   PathSettings settings_;
+  CameraConnectionSettings connection_;
   std::optional<LightSources> sources_;
 };
 

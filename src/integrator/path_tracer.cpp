@@ -57,7 +57,8 @@ class LightGatherer : public WalkRecorder {
         },
         &event);
   }
-  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state) {
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
+                    const Traveller&) {
     set_out(event.point.leave(chosen), sample.pdf_w, state.throughput);
   }
 

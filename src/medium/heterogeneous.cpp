@@ -176,6 +176,10 @@ Spectrum HeterogeneousMedium::transmittance(const Ray& ray, const Sampler& sampl
   return estimate * exp(control * -1.0f);
 }
 
+Spectrum HeterogeneousMedium::sigma_s_at(const Vec3& p) const {
+  return bounds().intersects(p) ? extinction(p) * parts_.albedo->eval(p) : Spectrum(0.0f);
+}
+
 Spectrum HeterogeneousMedium::proxy_sigma_t(const Vec3& p) const {
   constexpr float kLeastShare = 1e-3f;
   const MajorantCell& cell = grid_.cell_at(p);

@@ -45,6 +45,7 @@ class HeterogeneousMedium final : public Medium {
 
   /// From the cells' means; at least exp(-30), so that it never says that no light comes through.
   Spectrum proxy_transmittance(const Ray& ray) const override;
+  Spectrum sigma_s_at(const Vec3& p) const override;
   /// The cell's mean, and not much less than its majorant.
   Spectrum proxy_sigma_t(const Vec3& p) const override;
 

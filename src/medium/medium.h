@@ -42,6 +42,9 @@ class Medium {
   /// media.
   virtual Spectrum proxy_transmittance(const Ray& ray) const = 0;
 
+  /// The scattering coefficient at p, 1/unit.
+  virtual Spectrum sigma_s_at(const Vec3& /*p*/) const { return sigma_s(); }
+
   /// A stand-in for the extinction at p, with the same purpose: not 0 where light collides.
   virtual Spectrum proxy_sigma_t(const Vec3& /*p*/) const { return sigma_t(); }
 

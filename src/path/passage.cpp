@@ -3,7 +3,7 @@
 namespace turbid {
 namespace {
 
-constexpr Passage kBlocked{Spectrum(0.0f), 0, Spectrum(0.0f)};
+constexpr Passage kBlocked{Spectrum(0.0f), 0, Spectrum(0.0f), nullptr};
 
 /// Attenuates along the first `distance` of the ray.
 void attenuate(Passage& passage, Spectrum& throughput, const Medium& medium, const Ray& ray, float distance,
@@ -35,6 +35,7 @@ Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectru
       const float distance = std::isfinite(ray.t_max) ? ray.t_max : scene.distance_to_world_end(ray);
       attenuate(passage, throughput, *medium, ray, distance, sampler);
     }
+    passage.medium = medium;
     return passage;
   }
   MediumStack media;
@@ -47,6 +48,7 @@ Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectru
       attenuate(passage, throughput, *medium, ray, distance, sampler);
       if (passage.prob == 0 || passage.transmittance.is_black()) return kBlocked;
     }
+    passage.medium = medium;
     if (!hit) return passage;
 
     const Object& object = scene.object(hit);

@@ -14,6 +14,7 @@ struct Passage {
   float prob = 1;
   /// The product of Medium::proxy_transmittance and Bsdf::null_transmission along the line: the same from either end.
   Spectrum proxy{1.0f};
+  const Medium* medium = nullptr;  ///< at the end of the line; null: vacuum
 };
 
 /// Probability of passing straight through a surface that transmits `null_transmission`, as used in Passage::prob.

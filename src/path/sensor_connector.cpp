@@ -11,9 +11,9 @@ SensorConnector::SensorConnector(const Scene& scene, double paths, const Sampler
       sampler_(sampler),
       counters_(counters) {}
 
-std::optional<SensorArrival> SensorConnector::arrive(const SensorConnection& way, const Vec3& origin,
-                                                     const Spectrum& flux, const Traveller& traveller,
-                                                     const SurfaceEvent* surface) const {
+template <class Look>
+std::optional<SensorArrival> SensorConnector::arrive_by(const SensorConnection& way, const Vec3& origin,
+                                                        const Spectrum& flux, const Look& look) const {
   if (flux.is_black()) return std::nullopt;
   const auto target = target_of(way);
   if (!target) return std::nullopt;
@@ -24,9 +24,24 @@ std::optional<SensorArrival> SensorConnector::arrive(const SensorConnection& way
   // What stands nearer than the near plane is not there.
   const Ray line{origin, wo, distance - way.near_t};
   if (arrived.is_black() || !(line.t_max > 0)) return std::nullopt;
-  const Passage passage = traveller.look_along(line, arrived, surface);
+  const Passage passage = look(line, arrived);
   if (passage.prob == 0) return std::nullopt;
   return arrival(*target, way, near * passage.transmittance, passage.proxy);
+}
+
+std::optional<SensorArrival> SensorConnector::arrive(const SensorConnection& way, const Vec3& origin,
+                                                     const Spectrum& flux, const Traveller& traveller,
+                                                     const SurfaceEvent* surface) const {
+  return arrive_by(way, origin, flux, [&](const Ray& line, const Spectrum& arrived) {
+    return traveller.look_along(line, arrived, surface);
+  });
+}
+
+std::optional<SensorArrival> SensorConnector::arrive(const SensorConnection& way, const Vec3& origin,
+                                                     const Spectrum& flux, const Medium* medium) const {
+  return arrive_by(way, origin, flux, [&](const Ray& line, const Spectrum& arrived) {
+    return pass_straight(scene_, line, medium, arrived, sampler_, counters_);
+  });
 }
 
 /// Lights with a surface shine alike in all directions of their outside: the radiance that the emitted ray stands for

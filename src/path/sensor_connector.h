@@ -35,6 +35,10 @@ class SensorConnector {
   std::optional<SensorArrival> arrive(const SensorConnection& way, const Vec3& origin, const Spectrum& flux,
                                       const Traveller& traveller, const SurfaceEvent* surface = nullptr) const;
 
+  /// The same from a point in a medium (null: vacuum), whoever stands there. Not for scenes with priorities.
+  std::optional<SensorArrival> arrive(const SensorConnection& way, const Vec3& origin, const Spectrum& flux,
+                                      const Medium* medium) const;
+
   /// A light seen directly: a surface that shines, or the sky. The weight is that of the emission's throughput. Empty
   /// for lights that are no sight.
   std::optional<SensorArrival> arrive_from(const Emission& emission, const Traveller& traveller) const;
@@ -48,6 +52,9 @@ class SensorConnector {
   float pdf(const SensorConnection& way) const { return way.importance * scale_; }
 
  private:
+  template <class Look>
+  std::optional<SensorArrival> arrive_by(const SensorConnection& way, const Vec3& origin, const Spectrum& flux,
+                                         const Look& look) const;
   std::optional<SensorArrival> arrive_from_sky(const Emission& emission) const;
   static Vec2 next_2d(Rng& rng) {
     const float u = rng.next_float();

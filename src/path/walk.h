@@ -26,7 +26,8 @@ struct WalkRecorder {
   void at_collision(const CollisionEvent&, const PathState&, const Traveller&) {}
   /// The walk has chosen how it leaves the vertex (unit, away from it); the throughput holds the choice. Collisions: mu
   /// is the cosine of the deflection.
-  void left_surface(const SurfaceEvent&, const BsdfSample&, const Vec3& /*chosen*/, const PathState&) {}
+  void left_surface(const SurfaceEvent&, const BsdfSample&, const Vec3& /*chosen*/, const PathState&,
+                    const Traveller&) {}
   void left_collision(const CollisionEvent&, float /*mu*/, const Vec3& /*chosen*/, const PathState&, const Traveller&) {
   }
 };
@@ -177,7 +178,7 @@ class Walk {
     else
       eta_scale_ *= sqr(sample->eta);
     traveller_.leave(object, point, chosen);
-    recorder_.left_surface(event, *sample, chosen, state());
+    recorder_.left_surface(event, *sample, chosen, state(), traveller_);
     if (depth_ >= settings_.max_depth || throughput_.is_black()) return false;
     return survives();
   }

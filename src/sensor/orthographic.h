@@ -17,6 +17,7 @@ class OrthographicSensor final : public Sensor {
   std::optional<SensorConnection> connect(const Vec3& p, const Vec2& u_aperture) const override;
   /// Always empty.
   std::optional<SensorConnection> connect_to_infinity(const Vec3&, const Vec2&) const override { return std::nullopt; }
+  std::optional<Vec3> aperture_point(const Vec2&) const override { return std::nullopt; }
   /// The middle of the film.
   Vec3 position() const override { return corner_ + (across_ + down_) * 0.5f; }
 

@@ -19,6 +19,7 @@ class PerspectiveSensor final : public Sensor {
   SensorRay sample_ray(const Vec2& film, const Vec2& u_aperture) const override;
   std::optional<SensorConnection> connect(const Vec3& p, const Vec2& u_aperture) const override;
   std::optional<SensorConnection> connect_to_infinity(const Vec3& direction, const Vec2& u_aperture) const override;
+  std::optional<Vec3> aperture_point(const Vec2&) const override { return origin_; }
   Vec3 position() const override { return origin_; }
 
  private:

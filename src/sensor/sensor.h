@@ -45,6 +45,10 @@ class Sensor {
   /// sensors that look in one direction only: no other direction has a density.
   virtual std::optional<SensorConnection> connect_to_infinity(const Vec3& direction, const Vec2& u_aperture) const = 0;
 
+  /// The point of the aperture that the two numbers stand for, the same that connect() finds with them. Empty where
+  /// that depends on who asks: the sensor has no aperture, and looks from everywhere in one direction.
+  virtual std::optional<Vec3> aperture_point(const Vec2& u_aperture) const = 0;
+
   /// A point of the sensor, to find the medium that it stands in.
   virtual Vec3 position() const = 0;
 };

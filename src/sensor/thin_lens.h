@@ -17,6 +17,9 @@ class ThinLensSensor final : public Sensor {
   SensorRay sample_ray(const Vec2& film, const Vec2& u_aperture) const override;
   std::optional<SensorConnection> connect(const Vec3& p, const Vec2& u_aperture) const override;
   std::optional<SensorConnection> connect_to_infinity(const Vec3& direction, const Vec2& u_aperture) const override;
+  std::optional<Vec3> aperture_point(const Vec2& u_aperture) const override {
+    return origin_ + lens_offset(u_aperture);
+  }
   bool needs_aperture() const override { return true; }
   /// The centre of the lens.
   Vec3 position() const override { return origin_; }
