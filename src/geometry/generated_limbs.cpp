@@ -18,7 +18,7 @@ class Body {
     for (const Limb& limb : limbs)
       if (const float taper = std::abs(limb.from_radius - limb.to_radius); taper > 0)
         slope_ = std::max(slope_, std::hypot(1.0f, taper / length(limb.to - limb.from)));
-    constexpr float kSlopeOfNoise = 4;  // measured: 2.6 at most
+    constexpr float kSlopeOfNoise = 4;  // 2.57 was the most at 6 million random points
     slope_ += kSlopeOfNoise * std::abs(relief.amplitude) * std::abs(relief.frequency);
   }
 
