@@ -10,8 +10,8 @@
 namespace turbid {
 
 /// Meshes made by code, for scenes that ship without files. All have smooth vertex normals; all but make_grid are
-/// closed, all but the icospheres have uvs. They stand around the y axis (up) unless said otherwise. Wrong arguments
-/// throw std::invalid_argument.
+/// closed, all but the icospheres and make_limbs have uvs. They stand around the y axis (up) unless said otherwise.
+/// Wrong arguments throw std::invalid_argument.
 
 /// A sphere of subdivided icosahedra: 20 * 4^subdivisions triangles of nearly equal size. subdivisions <= 10.
 MeshData make_icosphere(float radius, int subdivisions);
@@ -39,6 +39,49 @@ MeshData make_bumpy_sphere(float radius, float amplitude, float frequency, uint3
 
 /// [-half.x, half.x] x [-half.y, half.y] in the xz plane, y = height(x, z), normals up.
 MeshData make_grid(const Vec2& half, int nx, int nz, const std::function<float(float, float)>& height = {});
+
+/// What lies below a grid, down to y = -depth: closed by walls and a floor.
+MeshData make_slab(const Vec2& half, int nx, int nz, float depth, const std::function<float(float, float)>& height);
+
+/// Trains of waves that travel about +x, as heights over the xz plane: water, ripples of sand, dunes.
+struct WaveSettings {
+  float length = 1;     ///< of the longest waves
+  float amplitude = 0;  ///< no height is beyond it
+  int trains = 8;       ///< from the longest to a quarter of it, all equally steep
+  float spread = 40;    ///< largest angle between a train and the x axis, degrees
+  float sharpness = 1;  ///< 1: sines; above: narrow crests, wide troughs
+  float lean = 0;       ///< in [0, 1): how much steeper the side is that looks to +x
+  float bend = 0;       ///< by how many lengths noise moves the crests
+  uint32_t seed = 0;
+};
+class WaveField {
+ public:
+  explicit WaveField(const WaveSettings& settings);
+  float operator()(float x, float z) const;
+
+ private:
+  struct Train {
+    float x, z, phase, height;  ///< wave vector, 1/length
+  };
+  WaveSettings settings_;
+  std::vector<Train> trains_;
+};
+
+/// A round cone: spheres along the line between its ends.
+struct Limb {
+  Vec3 from;
+  float from_radius;
+  Vec3 to;
+  float to_radius;
+};
+/// Smooth noise that moves a surface outwards by up to `amplitude`.
+struct Relief {
+  float amplitude = 0, frequency = 1;
+  uint32_t seed = 0;
+};
+/// A body of limbs that melt into each other over about the length `blend`, polygonised on cells of size `cell`;
+/// details below that are lost. Where limbs overlap it bulges, by up to blend * ln(number of limbs).
+MeshData make_limbs(std::span<const Limb> limbs, float blend, float cell, const Relief& relief = {});
 
 /// A tube of varying radius around a polyline, closed by rounded ends; `radii` has one or as many entries as `points`.
 MeshData make_tube(std::span<const Vec3> points, std::span<const float> radii, int segments);

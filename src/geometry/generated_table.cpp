@@ -39,11 +39,36 @@ MeshData tube(const GeneratedShapeArguments& a) {
   return make_tube(points, {&radius, 1}, whole(a, "segments"));
 }
 
+MeshData limbs(const GeneratedShapeArguments& a) {
+  const auto n = [&](size_t i) { return static_cast<float>(a.points[i]); };
+  std::vector<Limb> limbs;
+  for (size_t i = 0; i + 7 < a.points.size(); i += 8)
+    limbs.push_back({{n(i), n(i + 1), n(i + 2)}, n(i + 3), {n(i + 4), n(i + 5), n(i + 6)}, n(i + 7)});
+  return make_limbs(limbs, real(a, "blend"), real(a, "cell"), {real(a, "amplitude"), real(a, "frequency"), seed(a)});
+}
+
+MeshData height_field(const GeneratedShapeArguments& a, const std::function<float(float, float)>& height) {
+  const Vec2 half(real(a, "half_x"), real(a, "half_z"));
+  const int nx = whole(a, "cells_x"), nz = whole(a, "cells_z");
+  const float depth = real(a, "depth");
+  return depth == 0 ? make_grid(half, nx, nz, height) : make_slab(half, nx, nz, depth, height);
+}
+
 MeshData grid(const GeneratedShapeArguments& a) {
   const float amplitude = real(a, "amplitude"), frequency = real(a, "frequency");
   const uint32_t s = seed(a);
-  const auto height = [=](float x, float z) { return amplitude * smooth_noise(Vec3(x, 0, z) * frequency, s); };
-  return make_grid({real(a, "half_x"), real(a, "half_z")}, whole(a, "cells_x"), whole(a, "cells_z"), height);
+  return height_field(a, [=](float x, float z) { return amplitude * smooth_noise(Vec3(x, 0, z) * frequency, s); });
+}
+
+MeshData waves(const GeneratedShapeArguments& a) {
+  return height_field(a, WaveField({.length = real(a, "length"),
+                                    .amplitude = real(a, "amplitude"),
+                                    .trains = whole(a, "trains"),
+                                    .spread = real(a, "spread"),
+                                    .sharpness = real(a, "sharpness"),
+                                    .lean = real(a, "lean"),
+                                    .bend = real(a, "bend"),
+                                    .seed = seed(a)}));
 }
 }  // namespace
 
@@ -108,9 +133,36 @@ const std::vector<GeneratedShapeKind>& generated_shape_kinds() {
         {"cells_z", 1, "cells along z"},
         {"amplitude", 0, "largest height"},
         {"frequency", 1, "bumps per unit"},
-        {"seed", 0, "names the noise"}},
+        {"seed", 0, "names the noise"},
+        {"depth", 0, "closed below by walls and a floor at y = -depth; 0: a sheet"}},
        0,
        grid},
+      {"waves",
+       "plane around the origin, normal +y, displaced by trains of waves: water, ripples, dunes",
+       {{"half_x", 1, "half size along x"},
+        {"half_z", 1, "half size along z"},
+        {"cells_x", 128, "cells along x"},
+        {"cells_z", 128, "cells along z"},
+        {"amplitude", 0.05, "largest height"},
+        {"length", 1, "of the longest waves"},
+        {"trains", 8, "number of trains of waves"},
+        {"spread", 40, "largest angle between a train and the x axis, degrees"},
+        {"sharpness", 1, "1: sines; above: narrow crests"},
+        {"lean", 0, "in [0, 1): how much steeper the side towards +x is"},
+        {"bend", 0, "by how many lengths noise moves the crests"},
+        {"seed", 0, "names the waves"},
+        {"depth", 0, "closed below by walls and a floor at y = -depth; 0: a sheet"}},
+       0,
+       waves},
+      {"limbs",
+       "round cones, `points` (x, y, z, radius, x, y, z, radius) each, melted into one body",
+       {{"blend", 0.05, "length over which limbs melt into each other"},
+        {"cell", 0.02, "of the lattice of triangles"},
+        {"amplitude", 0, "largest displacement by noise"},
+        {"frequency", 1, "bumps per unit"},
+        {"seed", 0, "names the noise"}},
+       8,
+       limbs},
       {"tube",
        "round tube along the curve `points` (x, y, z), with rounded ends",
        {{"radius", 0.1, "radius"}, {"segments", 24, "around the curve"}},

@@ -1,6 +1,7 @@
 // What `turbid info` says about scenes that are probably not meant so.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "child_process.h"
@@ -37,6 +38,16 @@ TEST_F(Info, HasNothingToWarnOfInASoundScene) {
   EXPECT_EQ(text.find("warning"), std::string::npos) << text;
   expect_words(text, "mean free path 0.25 scene units, 0.125 of its extent (2), albedo 0.75");
   expect_words(text, "suited       volpath: shadow rays reach the lights through media and invisible boundaries\n");
+}
+
+TEST_F(Info, HasNothingToWarnOfInTheScenesThatShip) {
+  const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
+  for (const auto& entry : std::filesystem::directory_iterator(root / "scenes")) {
+    const testing::Outcome outcome = testing::run_turbid(folder_.path().string(), {"info", entry.path().string()});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_EQ(outcome.output.find("warning"), std::string::npos) << outcome.output;
+  }
 }
 
 TEST_F(Info, WarnsOfBoundaries) {

@@ -65,6 +65,57 @@ TEST(Generated, GridsFollowTheirHeight) {
   for (const Vec3& n : slope.normals) EXPECT_LT(length(n - normalize(Vec3(-1, 1, -2))), 1e-5f);
 }
 
+TEST(Generated, SlabsEndBelowTheirHeight) {
+  const WaveField waves({.length = 0.8f,
+                         .amplitude = 0.06f,
+                         .trains = 5,
+                         .spread = 90,
+                         .sharpness = 2,
+                         .lean = 0.5f,
+                         .bend = 0.1f,
+                         .seed = 3});
+  const MeshData slab = make_slab({1, 2}, 60, 120, 1, std::cref(waves));
+  double mean = 0;
+  Rng rng(2);
+  constexpr int kSamples = 20'000;
+  for (int i = 0; i < kSamples; ++i) mean += waves(2 * rng.next_float() - 1, 4 * rng.next_float() - 2) / kSamples;
+  expect_proper(slab, 8 * (1 + mean), 0.005);
+  EXPECT_THROW(make_slab({1, 1}, 8, 8, 0.03f, std::cref(waves)), std::invalid_argument);
+}
+
+TEST(Generated, WavesAreAsHighAsTheySayAndLeanToX) {
+  const WaveField one({.length = 2, .amplitude = 0.3f, .trains = 1, .spread = 0, .lean = 0.6f});
+  float highest = -1, lowest = 1, steepest = 0, least_steep = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const float x = static_cast<float>(i) * 1e-3f, slope = (one(x + 1e-3f, 1) - one(x, 1)) / 1e-3f;
+    EXPECT_NEAR(one(x, 1), one(x + 2, -3), 1e-5f);
+    highest = std::max(highest, one(x, 1));
+    lowest = std::min(lowest, one(x, 1));
+    least_steep = std::max(least_steep, slope);
+    steepest = std::min(steepest, slope);
+  }
+  EXPECT_NEAR(highest, 0.3f, 1e-4f);
+  EXPECT_NEAR(lowest, -0.3f, 1e-4f);
+  EXPECT_GT(-steepest, 1.5f * least_steep);
+  EXPECT_THROW(WaveField({.length = 0}), std::invalid_argument);
+  EXPECT_THROW(WaveField({.lean = 1}), std::invalid_argument);
+}
+
+TEST(Generated, LimbsHaveTheVolumeOfTheirUnion) {
+  const double pi = std::numbers::pi;
+  // Spheres as limbs of no length, alone and apart; a cone with round ends; two that melt, closed in any case.
+  const Limb ball{{0.1f, 0.2f, 0.3f}, 0.5f, {0.1f, 0.2f, 0.3f}, 0.5f};
+  expect_proper(make_limbs({&ball, 1}, 0.01f, 0.03f), pi / 6, 0.01);
+  const Limb two[] = {ball, {{2, 0, 0}, 0.25f, {3, 0, 0}, 0.25f}};
+  expect_proper(make_limbs(two, 0.01f, 0.03f), pi / 6 + pi / 16 + pi / 48, 0.01);
+  const Limb elbow[] = {{{0, 0, 0}, 0.3f, {0, 1, 0}, 0.2f}, {{0, 1, 0}, 0.2f, {0.7f, 1.3f, 0.2f}, 0.1f}};
+  EXPECT_TRUE(TriangleMesh(make_limbs(elbow, 0.1f, 0.03f, {0.02f, 5, 1})).is_closed());
+  EXPECT_GT(volume(make_limbs(elbow, 0.1f, 0.03f)), volume(make_limbs({elbow, 1}, 0.1f, 0.03f)));
+  EXPECT_THROW(make_limbs({}, 0.1f, 0.1f), std::invalid_argument);
+  const Limb point{{0, 0, 0}, 0.1f, {0, 0, 0}, 0.2f};
+  EXPECT_THROW(make_limbs({&point, 1}, 0.1f, 0.1f), std::invalid_argument);
+}
+
 TEST(Generated, NoiseIsSmoothAndBounded) {
   Rng rng(1);
   float largest = 0;
@@ -86,6 +137,7 @@ TEST(Generated, KindsAreMadeByName) {
     GeneratedShapeArguments arguments;
     if (kind.name == "lathe") arguments.points = {0, 0, 1, 1, 0, 2};
     if (kind.name == "tube") arguments.points = {0, 0, 0, 0, 1, 0};
+    if (kind.name == "limbs") arguments.points = {0, 0, 0, 0.2, 0, 1, 0, 0.1};
     EXPECT_GT(TriangleMesh(make_generated(kind.name, arguments)).area(), 0) << kind.name;
   }
   EXPECT_THROW(make_generated("sphere", {}), std::invalid_argument);
@@ -99,7 +151,7 @@ TEST(Generated, KindsAreMadeByName) {
   } catch (const std::invalid_argument& e) {
     EXPECT_STREQ(e.what(),
                  "there is no generated shape 'donut'; known are icosphere, uv_sphere, torus, lathe, rounded_box, "
-                 "bumpy_sphere, grid, tube");
+                 "bumpy_sphere, grid, waves, limbs, tube");
   }
 }
 }  // namespace
