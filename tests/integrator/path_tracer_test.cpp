@@ -224,6 +224,24 @@ TEST(PathTracer, WhatAbsorbsAllLightDropsNoSample) {
   EXPECT_EQ(dropped_samples(ball_scene(kSky + soot("0", "500") + soot("-2.5", "500") + floor), 64), 0u);
 }
 
+TEST(PathTracer, AlphaCountsSurfacesThatReflectNothing) {
+  // A diffuse surface is black from behind, and yet there. (One pixel in front of it, seen in its middle.)
+  const auto alpha = [](const std::string& content, const std::string& integrator) {
+    const Film film = render_text(ball_scene(content, "<integrator type=\"" + integrator + "\"/>"), 4);
+    return film.pixel(12 * 24 + 12).alpha / static_cast<double>(film.samples());
+  };
+  const auto rectangle = [](const std::string& angle) {
+    return R"(<shape type="rectangle"><transform name="to_world"><rotate y="1" angle=")" + angle +
+           R"("/></transform></shape>)";
+  };
+  for (const char* integrator : {"path", "volpath"}) {
+    EXPECT_EQ(alpha(rectangle("0"), integrator), 1) << integrator;
+    EXPECT_EQ(alpha(rectangle("180"), integrator), 1) << integrator;
+    EXPECT_EQ(alpha("", integrator), 0) << integrator;
+  }
+  EXPECT_EQ(alpha(R"(<shape type="sphere">)" + kNull + "</shape>", "volpath"), 0);
+}
+
 TEST(PathTracer, SobolAndIndependentSamplesAgree) {
   const std::string content = kSky + kLamp + ball(kNull, kChromatic);
   const auto with_sampler = [&](const std::string& type) {
