@@ -25,7 +25,7 @@ class LightGatherer : public WalkRecorder {
   }
   void passed_medium(const Spectrum& proxy) {
     const Spectrum passed = straight_ * proxy;
-    passing_prob_ *= passed.sum() / straight_.sum();
+    if (!straight_.is_black()) passing_prob_ *= passed.sum() / straight_.sum();
     straight_ = passed;
   }
   void passed_surface(const Spectrum& through) {

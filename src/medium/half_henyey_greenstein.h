@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "core/vector.h"
 #include "medium/phase_function.h"
 
@@ -18,7 +20,7 @@ class HalfHenyeyGreensteinPhase final : public PhaseFunction {
   /// Throws std::invalid_argument unless -1 < g < 1.
   HalfHenyeyGreensteinPhase(float g, Hemisphere side);
 
-  float eval(float mu) const override { return side_ * mu >= 0 ? at(1 - side_ * mu) : 0; }
+  float eval(float mu) const override { return side_ * mu >= 0 ? at(std::max(0.0f, 1 - side_ * mu)) : 0; }
   float eval_angle(float theta) const override;
   float sample(float u) const override;
   float mean_cosine() const override { return mean_cosine_; }

@@ -17,7 +17,7 @@ class HenyeyGreensteinPhase final : public PhaseFunction {
   /// Throws std::invalid_argument unless -1 < g < 1.
   explicit HenyeyGreensteinPhase(float g);
 
-  float eval(float mu) const override { return at(1 - sign_ * mu); }
+  float eval(float mu) const override { return at(std::max(0.0f, 1 - sign_ * mu)); }
 
   float eval_angle(float theta) const override {
     return at(2 * sqr(sign_ > 0 ? std::sin(theta / 2) : std::cos(theta / 2)));

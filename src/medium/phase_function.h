@@ -14,7 +14,8 @@ class AngleDistribution;
 class PhaseFunction {
  public:
   virtual ~PhaseFunction() = default;
-  /// f(mu), 1/sr; at the same time the density of sample().
+  /// f(mu), 1/sr; at the same time the density of sample(). Cosines that rounding has put beyond -1 or 1 count as
+  /// those.
   virtual float eval(float mu) const = 0;
   /// mu distributed as f in solid angle; takes one number u in [0,1).
   virtual float sample(float u) const = 0;

@@ -28,6 +28,7 @@ Passage pass_empty_space(const Scene& scene, const Ray& ray, SampleCounters& cou
 
 Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, const Sampler& sampler,
                       SampleCounters& counters, const MediumStack* enclosing) {
+  if (throughput.is_black()) return kBlocked;
   Passage passage;
   if (!scene.has_null_surfaces()) {
     passage = pass_empty_space(scene, ray, counters);
@@ -62,6 +63,7 @@ Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectru
       passage.prob *= null_prob(through);
       passage.proxy *= through;
       throughput *= through;
+      if (throughput.is_black()) return kBlocked;
     }
     if (enclosing) {
       media.cross(object, point.ng, -ray.direction, ray.direction);

@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "core/sampler.h"
 #include "path/sample_counters.h"
 #include "scene/scene.h"
@@ -21,12 +23,17 @@ struct Passage {
 inline float null_prob(const Spectrum& null_transmission) { return null_transmission.mean(); }
 
 /// The weights with which a walk of this throughput mixes the channels' distance densities: in proportion to the
-/// throughput, so that a flight never raises the sum over channels by more than the albedo (weights sum to 1).
-inline Spectrum channel_mix(const Spectrum& throughput) { return throughput / throughput.sum(); }
+/// throughput, so that a flight never raises the sum over channels by more than the albedo (weights sum to 1). Evenly
+/// where hardly anything is left: a walk from the sensor goes on behind what has absorbed all light.
+inline Spectrum channel_mix(const Spectrum& throughput) {
+  const float sum = throughput.sum();
+  return sum > std::numeric_limits<float>::min() ? throughput / sum : Spectrum(1.0f / kChannels);
+}
 
 /// Walks along `ray` up to ray.t_max (infinite: to a light at infinity) through null surfaces and media. `throughput`
-/// is that of the walk along this direction (any scale): it sets the mixture of the channels. `enclosing`: the shapes
-/// around the origin, in scenes with priorities only; `medium` is then its medium.
+/// is that of the walk along this direction (any scale): it sets the mixture of the channels; where it is black nothing
+/// comes through. `enclosing`: the shapes around the origin, in scenes with priorities only; `medium` is then its
+/// medium.
 Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, const Sampler& sampler,
                       SampleCounters& counters, const MediumStack* enclosing = nullptr);
 

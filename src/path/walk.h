@@ -160,8 +160,9 @@ class Walk {
     if (agreed && depth_ < settings_.max_depth) recorder_.at_surface(event, state(), traveller_);
     const float u_lobe = sampler_.next_1d();
     const auto sample = bsdf.sample(point, event.given_local, u_lobe, sampler_.next_2d(), kMode);
+    const bool straight = sample && sample->flags & lobe::kNull;
+    if (!kSeesMedia || !straight) alpha_ = 1;
     if (!sample) return false;
-    const bool straight = sample->flags & lobe::kNull;
     if (kSeesMedia && straight) {
       --depth_;
       recorder_.passed_surface(bsdf.null_transmission(point, event.given_local));
@@ -171,7 +172,6 @@ class Walk {
     }
     const Vec3 chosen = point.to_world(sample->direction);
     if (!straight && (!agreed || sample->direction.z * dot(chosen, point.ng) <= 0)) return false;
-    alpha_ = 1;
     throughput_ *= sample->weight;
     if constexpr (kFromLight)
       throughput_ *= adjoint_correction(point, given, chosen);

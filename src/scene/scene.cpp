@@ -55,6 +55,7 @@ Scene::Scene(SceneParts parts) : parts_(std::move(parts)) {
     if (object.bsdf->flags() & lobe::kNull) has_null_surfaces_ = true;
   }
   choose_probabilities();
+  measure_world();
 
   find_enclosures();
   const Vec3& eye = parts_.sensor->position();
@@ -65,7 +66,17 @@ Scene::Scene(SceneParts parts) : parts_(std::move(parts)) {
   // Rays from infinity must start where the media end that lie on their way. (Choices by power stay as they are: this
   // group of lights grows as one.)
   if (has_unbounded_media())
-    for (const auto& emitter : parts_.emitters) emitter->set_scene_bounds(center_, kWorldScale * radius_);
+    for (const auto& emitter : parts_.emitters) emitter->set_scene_bounds(center_, world_radius_);
+}
+
+void Scene::measure_world() {
+  world_radius_ = std::max(kWorldScale * radius_, length(parts_.sensor->position() - center_));
+  for (const Emitter* emitter : emitters_) {
+    if (emitter->is_at_infinity()) continue;
+    const Vec3 low = abs(emitter->bounds().min - center_), high = abs(emitter->bounds().max - center_);
+    const Vec3 farthest(std::max(low.x, high.x), std::max(low.y, high.y), std::max(low.z, high.z));
+    world_radius_ = std::max(world_radius_, length(farthest));
+  }
 }
 
 bool Scene::has_unbounded_media() const {
@@ -199,8 +210,7 @@ const Surroundings& Scene::surroundings(const Medium* medium) const {
 float Scene::distance_to_world_end(const Ray& ray) const {
   const Vec3 to_center = center_ - ray.origin;
   const float along = dot(to_center, ray.direction);
-  const float radius = kWorldScale * radius_;
-  const float discriminant = sqr(radius) - (length_squared(to_center) - sqr(along));
+  const float discriminant = sqr(world_radius_) - (length_squared(to_center) - sqr(along));
   return discriminant > 0 ? std::max(0.0f, along + std::sqrt(discriminant)) : 0;
 }
 

@@ -146,15 +146,17 @@ class Scene {
   /// surface.
   bool has_null_surfaces() const { return has_null_surfaces_; }
 
-  /// Sphere around everything; media that fill unbounded space end at kWorldScale times its radius.
+  /// Sphere around all shapes. Media that fill unbounded space end at kWorldScale times its radius, or at the sensor or
+  /// the light that stands farthest away where that is more: no path begins outside of the world.
   const Vec3& center() const { return center_; }
   float radius() const { return radius_; }
-  /// Distance along the ray to the end of the world, where an unbounded medium stops; 0 outside.
+  /// Distance along a ray that begins in the world to the world's end, where an unbounded medium stops.
   float distance_to_world_end(const Ray& ray) const;
   static constexpr float kWorldScale = 4;
 
  private:
   void choose_probabilities();
+  void measure_world();
   void find_enclosures();
   void find_media();
   Surroundings survey(const Medium* medium) const;
@@ -170,7 +172,7 @@ class Scene {
   bool has_null_surfaces_ = false, has_priorities_ = false;
   MediumStack sensor_media_;
   Vec3 center_;
-  float radius_ = 1;
+  float radius_ = 1, world_radius_ = kWorldScale;
 };
 
 }  // namespace turbid

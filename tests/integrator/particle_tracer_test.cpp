@@ -92,6 +92,15 @@ TEST(ParticleTracer, PrioritiesAndWorldMedium) {
   expect_same(scene(kLamp + kFloor + fog(1.5f) + world, integer("max_depth", 4), kPinholeInMedium));
 }
 
+TEST(ParticleTracer, SensorAndLightFarFromAllShapesInTheWorldMedium) {
+  const std::string world =
+      ball("0, 0, 0.5", 0.3f, R"(<bsdf type="diffuse"/>)") + medium("world", "0.1, 0.1, 0.1", "0.9, 0.9, 0.9");
+  const std::string far_point = R"(<emitter type="point"><point name="position" value="0, 12, 4"/>
+    <rgb name="intensity" value="90"/></emitter>)";
+  expect_same(scene(kSun + world, integer("max_depth", 3), kPinholeInMedium), {16, 256});
+  expect_same(scene(far_point + world, integer("max_depth", 3), kPinholeInMedium), {64, 256});
+}
+
 TEST(ParticleTracer, MeshWithStronglyVaryingNormals) {
   const auto solid = [&](const std::string& bsdf) {
     return octahedron(R"(<rotate z="1" angle="20"/><translate x="-0.4" y="-1" z="1"/>)", bsdf);

@@ -184,6 +184,64 @@ TEST(PathTracer, SingleScatteringOfAPointLightMatchesQuadrature) {
   EXPECT_LT(mean.grey_error(), 0.005 * expected);
 }
 
+/// Samples that were not finite.
+uint64_t dropped_samples(const std::string& xml, uint32_t samples) {
+  LoadedScene loaded = load_scene_from_string(xml, "test scene");
+  const IntegratorSetup setup = make_integrator(loaded.integrator);
+  render_with(Scene(std::move(loaded.parts)), *setup.integrator, samples);
+  return setup.integrator->counters().at("dropped_samples");
+}
+
+std::string colored_ball(const std::string& center, const std::string& color) {
+  return R"(<shape type="sphere"><point name="center" value=")" + center +
+         R"("/><bsdf type="diffuse"><rgb name="reflectance" value=")" + color + R"("/></bsdf></shape>)";
+}
+
+TEST(PathTracer, ColorsThatShareNoChannelDropNoSample) {
+  // What red has reflected is black on blue: the light that is asked for there goes through fog with no throughput.
+  const std::string fog =
+      R"(<shape type="sphere"><float name="radius" value="9"/>)" + kNull +
+      R"(<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0.05"/></medium></shape>)";
+  const std::string pane = R"(<shape type="sphere"><float name="radius" value="5"/><bsdf type="thindielectric">
+    <rgb name="specular_transmittance" value="0, 1, 0"/></bsdf></shape>)";
+  const std::string balls = colored_ball("-1, 0, 0", "1, 0, 0") + colored_ball("1, 0, 0", "0, 0, 1");
+  EXPECT_EQ(dropped_samples(ball_scene(kLamp + balls + fog), 64), 0u);
+  EXPECT_EQ(dropped_samples(ball_scene(kSky + balls + pane + fog), 64), 0u);
+}
+
+TEST(PathTracer, WhatAbsorbsAllLightDropsNoSample) {
+  // Nothing is left behind the first ball; the walk goes on through others, for alpha.
+  const auto soot = [](const std::string& z, const std::string& sigma_t) {
+    return R"(<shape type="sphere"><point name="center" value="0, 0, )" + z + R"("/>)" + kNull +
+           R"(<medium name="interior" type="homogeneous"><rgb name="sigma_t" value=")" + sigma_t +
+           R"("/><rgb name="albedo" value="0"/></medium></shape>)";
+  };
+  const std::string fog = R"(<shape type="sphere"><point name="center" value="0, 0, -5"/>)" + kNull +
+                          R"(<medium name="interior" type="homogeneous">)" + kChromatic + "</medium></shape>";
+  EXPECT_EQ(dropped_samples(ball_scene(kSky + soot("0", "500") + soot("-2.5", "500") + fog), 16), 0u);
+  const std::string floor = R"(<shape type="rectangle"><transform name="to_world"><rotate x="1" angle="-90"/>
+    <scale value="9"/><translate y="-1"/></transform></shape>)";
+  EXPECT_EQ(dropped_samples(ball_scene(kSky + soot("0", "500") + soot("-2.5", "500") + floor), 64), 0u);
+}
+
+TEST(PathTracer, AlphaCountsSurfacesThatReflectNothing) {
+  // A diffuse surface is black from behind, and yet there. (One pixel in front of it, seen in its middle.)
+  const auto alpha = [](const std::string& content, const std::string& integrator) {
+    const Film film = render_text(ball_scene(content, "<integrator type=\"" + integrator + "\"/>"), 4);
+    return film.pixel(12 * 24 + 12).alpha / static_cast<double>(film.samples());
+  };
+  const auto rectangle = [](const std::string& angle) {
+    return R"(<shape type="rectangle"><transform name="to_world"><rotate y="1" angle=")" + angle +
+           R"("/></transform></shape>)";
+  };
+  for (const char* integrator : {"path", "volpath"}) {
+    EXPECT_EQ(alpha(rectangle("0"), integrator), 1) << integrator;
+    EXPECT_EQ(alpha(rectangle("180"), integrator), 1) << integrator;
+    EXPECT_EQ(alpha("", integrator), 0) << integrator;
+  }
+  EXPECT_EQ(alpha(R"(<shape type="sphere">)" + kNull + "</shape>", "volpath"), 0);
+}
+
 TEST(PathTracer, SobolAndIndependentSamplesAgree) {
   const std::string content = kSky + kLamp + ball(kNull, kChromatic);
   const auto with_sampler = [&](const std::string& type) {

@@ -40,6 +40,14 @@ TEST(PhaseFunction, IsSampledAsItSays) {
   }
 }
 
+TEST(PhaseFunction, CosinesThatRoundingPutsBeyondOneCountAsOne) {
+  constexpr float kBeyond = 1 + 4e-7f;  // dot products of unit vectors reach this
+  for (const auto& [name, phase, grows] : all_phase_functions())
+    for (const float sign : {-1.0f, 1.0f})
+      EXPECT_NEAR(phase->eval(sign * kBeyond) / (1e-30f + phase->eval(sign)), 1, phase->eval(sign) > 0 ? 1e-5 : 1)
+          << name;
+}
+
 TEST(PhaseFunction, PlantedErrorsAreFound) {
   const HenyeyGreensteinPhase right(0.5f), wrong(0.52f), mirrored(-0.5f);
   EXPECT_FALSE(passes(test_samples(right, wrong), 100)) << "slightly wrong g";
