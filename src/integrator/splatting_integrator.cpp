@@ -64,7 +64,7 @@ class SplattingIntegrator::PassSink final : public ContributionSink {
 
   void gather(const Contribution& contribution) override {
     const Spectrum value = contribution.value * contribution.weight;
-    if (drop(value)) return;
+    if (drop(contribution, value)) return;
     sample_.radiance += value;
     const std::span<double> layers = film_.layers(pixel_);
     for_layers(contribution, value, [&](size_t channel, const Spectrum& part) { add_to(layers, channel, part); });
@@ -72,7 +72,7 @@ class SplattingIntegrator::PassSink final : public ContributionSink {
 
   void splat(size_t pixel, const Contribution& contribution) override {
     const Spectrum value = contribution.value * contribution.weight;
-    if (drop(value)) return;
+    if (drop(contribution, value)) return;
     splats_.picture.add(pixel, value);
     if (splats_.cascades)
       for (const CascadeShare& share : splats_.cascades->split(value))
@@ -82,8 +82,9 @@ class SplattingIntegrator::PassSink final : public ContributionSink {
   }
 
  private:
-  bool drop(const Spectrum& value) {
-    if (is_valid(value)) return value.is_black();
+  /// A weight of 0 is no reason: what is shown without weights may be light.
+  bool drop(const Contribution& contribution, const Spectrum& value) {
+    if (is_valid(value)) return contribution.value.is_black();
     ++counters_.dropped_samples;
     return true;
   }

@@ -14,9 +14,9 @@ std::vector<SuiteScene> scenes() {
   std::vector<SuiteScene> result;
   for (const SuiteScene& scene : suite())
     for (const char* name :
-         {"lamp in fog, any length", "point in fog", "spot in fog", "sky on fog", "sun on fog", "laser in fog", "chromatic medium",
-          "heterogeneous medium", "rough glass with murk", "caustic into fog", "thin lens", "sensor inside the medium",
-          "priorities and a world medium", "several media in turn"})
+         {"lamp in fog, any length", "point in fog", "spot in fog", "sky on fog", "sun on fog", "laser in fog",
+          "chromatic medium", "heterogeneous medium", "rough glass with murk", "caustic into fog", "thin lens",
+          "sensor inside the medium", "priorities and a world medium", "several media in turn"})
       if (scene.name == name) result.push_back(scene);
   return result;
 }
@@ -27,10 +27,9 @@ TEST_P(CameraConnections, AgreeWithBdpt) {
   const SuiteScene& scene = GetParam();
   const Observation reference = observe(scene.xml, {"bdpt", 24 * scene.effort, 1, 1}, 8);
   for (const char* technique : {"once_more", "mis", "equiangular", "once_more,sampling=seed", "mis,sampling=seed"}) {
-    const Agreement agreement =
-        compare(reference, observe(scene.xml, {std::string("ptracer,camera_connection=") + technique,
-                                               48 * scene.effort, 1, 2},
-                                   8));
+    const Agreement agreement = compare(
+        reference,
+        observe(scene.xml, {std::string("ptracer,camera_connection=") + technique, 48 * scene.effort, 1, 2}, 8));
     EXPECT_EQ(agreement.cannot, "");
     EXPECT_TRUE(agreement.accepted(5 * scenes().size())) << technique << "\n" << agreement.report();
   }

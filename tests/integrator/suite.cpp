@@ -143,7 +143,7 @@ std::vector<SuiteScene> suite() {
       {"coarse glass, smooth normals",
        scene(kLamp + kFloor + octahedron(lens, R"(<bsdf type="dielectric"><float name="int_ior" value="1.4"/></bsdf>)"),
              max6)},
-      {"thin lens", scene(kLamp + kFloor + fog(), max5, kThinLens)},
+      {"thin lens", scene(kLamp + kFloor + fog(), max5, kThinLens), 8, 2},
       {"sensor inside the medium", scene(kLamp + kFloor + around, max5, kPinholeInMedium)},
       {"endless medium", scene(kLamp + kFloor, max4, in_endless)},
       {"endless medium under a sky", scene(kSky + kFloor, integer("max_depth", 3), in_endless)},
