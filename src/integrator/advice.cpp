@@ -105,13 +105,12 @@ Advice suggest_integrator(const Scene& scene) {
         "light: large lights give little noise, small ones much";
   else
     advice.why = "shadow rays reach the lights through media and invisible boundaries";
-  const bool delta = std::any_of(scene.emitters().begin(), scene.emitters().end(),
-                                 [](const Emitter* emitter) { return !emitter->can_be_hit(); });
   constexpr float kMuch = 0.25f;
   const bool lamp_in_glass = std::any_of(scene.emitters().begin(), scene.emitters().end(), [&](const Emitter* emitter) {
     return share_behind_glass(scene, *emitter) > kMuch;
   });
-  if (asked_for(scene).beams || (blind && delta) || lamp_in_glass) {
+  const PathSupport asked = asked_for(scene);
+  if (asked.beams || asked.specular_at_delta_light || lamp_in_glass) {
     advice.integrator = "bdpt";
     advice.why = lamp_in_glass
                      ? "a light stands behind smooth glass, where paths from the sensor find it by chance alone"
