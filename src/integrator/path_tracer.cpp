@@ -15,8 +15,8 @@ float mis_weight(float pdf, float other_pdf) {
 /// Gathers the light that a walk from the sensor finds: by chance, and by asking at every vertex.
 class LightGatherer : public WalkRecorder {
  public:
-  LightGatherer(const Scene& scene, const PathSettings& settings, Sampler& sampler, SampleCounters& counters)
-      : scene_(scene), settings_(settings), sampler_(sampler), counters_(counters) {}
+  LightGatherer(const Scene& scene, const PathSettings& settings, Sampler& sampler)
+      : scene_(scene), settings_(settings), sampler_(sampler) {}
 
   const PixelSample& result() const { return result_; }
 
@@ -131,7 +131,6 @@ class LightGatherer : public WalkRecorder {
   const Scene& scene_;
   const PathSettings& settings_;
   Sampler& sampler_;
-  SampleCounters& counters_;
 
   PixelSample result_{Spectrum(0.0f), 0};
   Vec3 last_position_;      ///< where the current direction was chosen ...
@@ -144,7 +143,7 @@ class LightGatherer : public WalkRecorder {
 template <bool kSeesMedia>
 PixelSample trace(const Scene& scene, const PathSettings& settings, const SensorRay& camera, Sampler& sampler,
                   SampleCounters& counters) {
-  LightGatherer gatherer(scene, settings, sampler, counters);
+  LightGatherer gatherer(scene, settings, sampler);
   CameraWalk<LightGatherer, kSeesMedia> walk(scene, settings, sampler, counters, gatherer);
   const float alpha = walk.run(camera);
   PixelSample sample = gatherer.result();
