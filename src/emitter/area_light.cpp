@@ -21,6 +21,22 @@ std::optional<DirectLightSample> AreaLight::sample_direct(const Vec3& from, cons
       .ng = sample->point.ng};
 }
 
+std::optional<DirectLightSample> AreaLight::seen_from(const Vec3& from, const DirectLightSample& chosen) const {
+  const Vec3 towards = chosen.position - from;
+  const float distance = length(towards);
+  if (!(distance > 0)) return std::nullopt;
+  const Vec3 wi = towards / distance;
+  if (!(dot(chosen.ng, wi) < 0)) return std::nullopt;
+  const float pdf_w = pdf_direct_w(from, chosen.position, chosen.ng);
+  if (!(pdf_w > 0)) return std::nullopt;
+  return DirectLightSample{.wi = wi,
+                           .distance = distance,
+                           .position = chosen.position,
+                           .weight = chosen.weight * (chosen.pdf_w / pdf_w),
+                           .pdf_w = pdf_w,
+                           .ng = chosen.ng};
+}
+
 std::optional<EmissionSample> AreaLight::sample_emission(const Vec2& u_position, const Vec2& u_direction) const {
   const AreaSample sample = shape_->sample_area(u_position);
   const Vec3 local = square_to_cosine_hemisphere(u_direction);

@@ -15,6 +15,7 @@ class AreaLight final : public SurfaceEmitter {
 
   /// Empty where the drawn point turns its back on `from`.
   std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const override;
+  std::optional<DirectLightSample> seen_from(const Vec3& from, const DirectLightSample& chosen) const override;
   /// Uniform over the surface, cosine-distributed about its geometric normal.
   std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const override;
   EmissionPdf emission_pdf(const Vec3& ng, const Vec3& direction) const override {

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "core/cone.h"
 #include "core/ray.h"
 #include "core/spectrum.h"
 #include "geometry/shape.h"
@@ -11,8 +12,8 @@ namespace turbid {
 struct DirectLightSample {
   Vec3 wi;             ///< unit, from the receiving point towards the light
   float distance = 0;  ///< to the point on the light; infinite for lights at infinity
-  Vec3 position;       ///< the point on the light (undefined for lights at infinity)
-  Spectrum weight;     ///< Le / pdf_w for lights with area, or intensity / distance^2 (irradiance) for delta lights
+  Vec3 position{0};    ///< the point on the light (undefined for lights at infinity)
+  Spectrum weight{0};  ///< Le / pdf_w for lights with area, or intensity / distance^2 (irradiance) for delta lights
   float pdf_w = 0;     ///< 1/sr at the receiving point; 0 when delta is true
   bool delta = false;  ///< point, spot, directional: no other technique can find it
   Vec3 ng{0};          ///< geometric normal at the point, for lights with a surface; else zero
@@ -44,6 +45,13 @@ class Emitter {
   /// Chooses a direction to this light from `from`; takes two numbers.
   virtual std::optional<DirectLightSample> sample_direct(const Vec3& from, const Vec2& u) const = 0;
 
+  /// The point or direction that sample_direct chose from some place, as `from` sees it: with the density that
+  /// sample_direct(from) has there. Empty where it turns its back. The default holds for delta lights, which leave
+  /// nothing to choose.
+  virtual std::optional<DirectLightSample> seen_from(const Vec3& from, const DirectLightSample& /*chosen*/) const {
+    return sample_direct(from, Vec2(0.5f));
+  }
+
   /// Chooses a ray that leaves this light; takes four numbers. May be empty (a black place of a picture). Lights at
   /// infinity start their rays on the bounding sphere that set_scene_bounds gave, uniform in the disk across.
   virtual std::optional<EmissionSample> sample_emission(const Vec2& u_position, const Vec2& u_direction) const = 0;
@@ -62,6 +70,8 @@ class Emitter {
   virtual bool can_be_hit() const = 0;
   /// False where sample_direct never finds a direction: beams.
   virtual bool can_be_aimed_at() const { return true; }
+  /// Lights that stand in one place: the directions in which they shine.
+  virtual Cone cone() const { return {}; }
   /// A box around every point that light starts from; infinite (the default) for lights at infinity.
   virtual Bounds3 bounds() const { return Bounds3(Vec3(-kInfinity), Vec3(kInfinity)); }
 
@@ -85,6 +95,9 @@ class EnvironmentEmitter : public Emitter {
   virtual Spectrum Le(const Vec3& direction) const = 0;
   /// Density of sample_direct, 1/sr.
   virtual float pdf_direct_w(const Vec3& direction) const = 0;
+  std::optional<DirectLightSample> seen_from(const Vec3&, const DirectLightSample& chosen) const final {
+    return chosen;
+  }
   bool can_be_hit() const final { return true; }
   bool is_environment() const final { return true; }
 

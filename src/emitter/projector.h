@@ -25,6 +25,9 @@ class Projector final : public Emitter {
   std::optional<Spectrum> emission_towards(const EmissionSample&, const Vec3& direction) const override {
     return intensity(direction);
   }
+  Cone cone() const override {
+    return {normalize(to_world_.vector({0, 0, 1})), std::atan(std::hypot(half_width_, half_height_)) + 1e-5f};
+  }
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }
   /// Exact for a picture's true mean.

@@ -89,8 +89,8 @@ void LightSubpath::join_with_sensor(const Vertex& vertex, const Traveller& trave
   const Vec3 wo = normalize(way->position - vertex.position);
   const Vertex::Scattering scattered = vertex.scatter(wo, TransportMode::kImportance);
   const Spectrum flux = vertex.throughput * scattered.value;
-  std::optional<SurfaceEvent> event;
-  const SurfaceEvent* surface = vertex.is_surface() ? &event.emplace(vertex.surface_event()) : nullptr;
+  const auto event = vertex.surface_event();
+  const SurfaceEvent* surface = event ? &*event : nullptr;
   const auto arrival = context_.sensor.arrive(*way, vertex.leave(wo), flux, traveller, surface);
   if (!arrival) return;
   const double pdf = to_double(arrival->pdf) * end_factor(vertex, wo, arrival->proxy);
@@ -202,8 +202,8 @@ void SensorSubpath::estimate_direct(const Vertex& vertex, const Traveller& trave
   const Vertex::Scattering scattered = vertex.scatter(light->wi, TransportMode::kRadiance);
   const Spectrum towards = vertex.throughput * scattered.value * light->weight / choice.prob;
   if (towards.is_black()) return;
-  std::optional<SurfaceEvent> event;
-  const SurfaceEvent* surface = vertex.is_surface() ? &event.emplace(vertex.surface_event()) : nullptr;
+  const auto event = vertex.surface_event();
+  const SurfaceEvent* surface = event ? &*event : nullptr;
   const Passage passage = traveller.look_along(ray_to_light(*light, vertex.leave(light->wi)), Spectrum(1.0f), surface);
   if (passage.prob == 0) return;
   gather(towards * passage.transmittance, others_of_direct(vertex, choice, *light, scattered, passage.proxy), 1,

@@ -7,6 +7,17 @@ int unlimited_if_negative(int64_t value) {
   return value < 0 ? PathSettings::kUnlimited : static_cast<int>(std::min<int64_t>(value, PathSettings::kUnlimited));
 }
 
+/// The value of a parameter that is one of some words.
+template <class Value>
+Value one_of(const Properties& properties, const std::string& name, const std::map<std::string, Value>& words) {
+  const std::string word = properties.string(name);
+  const auto found = words.find(word);
+  if (found != words.end()) return found->second;
+  std::vector<std::string> known;
+  for (const auto& entry : words) known.push_back(entry.first);
+  properties.refuse(name, "has the unknown value '" + word + "'" + suggestion(word, known));
+}
+
 }  // namespace
 
 std::vector<Parameter> with_common_parameters(std::vector<Parameter> own, const std::string& max_depth) {
@@ -39,6 +50,29 @@ PathSettings path_settings(const Properties& properties) {
   if (settings.min_scattering > settings.max_scattering)
     properties.refuse("min_scattering", "must not be above max_scattering");
   return settings;
+}
+
+std::vector<Parameter> connection_parameters(const std::string& name, const std::string& end) {
+  return {
+      {name, ParameterType::kString, "standard",
+       "how the collision next to the " + end +
+           " is found: standard (by the walk), equiangular or product (along the walk's ray), once_more "
+           "(inserted), mis (all but equiangular)"},
+      {"sampling", ParameterType::kString, "angle",
+       "of inserted collisions: angle (constant weight on the whole sphere), seed (as published, forward), geometry "
+       "(joint importance sampling, for isotropic media)"}};
+}
+
+ConnectionSettings connection_settings(const Properties& properties, const std::string& name) {
+  return {one_of<ConnectionTechnique>(properties, name,
+                                      {{"standard", ConnectionTechnique::kStandard},
+                                       {"equiangular", ConnectionTechnique::kEquiangular},
+                                       {"product", ConnectionTechnique::kProduct},
+                                       {"once_more", ConnectionTechnique::kOnceMore},
+                                       {"mis", ConnectionTechnique::kMis}}),
+          one_of<Insertion>(
+              properties, "sampling",
+              {{"angle", Insertion::kAngle}, {"seed", Insertion::kSolidAngle}, {"geometry", Insertion::kGeometry}})};
 }
 
 }  // namespace turbid

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "integrator/integrator.h"
+#include "path/connection_sampler.h"
 #include "path/path_settings.h"
 #include "scene/plugin.h"
 
@@ -21,5 +22,10 @@ std::vector<Parameter> with_common_parameters(std::vector<Parameter> own, const 
 
 /// What the common parameters say. Throws SceneError.
 PathSettings path_settings(const Properties& properties);
+
+/// How collisions next to the other end of a path are found: the parameters `name` and `sampling`. `end`: what stands
+/// there, in words.
+std::vector<Parameter> connection_parameters(const std::string& name, const std::string& end);
+ConnectionSettings connection_settings(const Properties& properties, const std::string& name);
 
 }  // namespace turbid

@@ -15,7 +15,7 @@ namespace turbid {
 /// sensor. Alpha is 1 everywhere.
 class ParticleTracer : public SplattingIntegrator {
  public:
-  explicit ParticleTracer(const PathSettings& settings, const CameraConnectionSettings& connection = {})
+  explicit ParticleTracer(const PathSettings& settings, const ConnectionSettings& connection = {})
       : settings_(settings), connection_(connection) {}
 
   PathSupport support() const override {
@@ -28,7 +28,7 @@ class ParticleTracer : public SplattingIntegrator {
 
  private:
   PathSettings settings_;
-  CameraConnectionSettings connection_;
+  ConnectionSettings connection_;
   std::optional<LightSources> sources_;
 };
 

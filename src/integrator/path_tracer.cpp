@@ -1,149 +1,14 @@
 #include "integrator/path_tracer.h"
 
-#include "path/walk.h"
+#include "integrator/light_gatherer.h"
 
 namespace turbid {
 namespace {
 
-/// Power heuristic with exponent 2 (Veach 1997, sect. 9.2.3) for one sample of each of two techniques.
-float mis_weight(float pdf, float other_pdf) {
-  if (pdf == 0) return 0;
-  const float ratio = other_pdf / pdf;
-  return 1 / (1 + ratio * ratio);
-}
-
-/// Gathers the light that a walk from the sensor finds: by chance, and by asking at every vertex.
-class LightGatherer : public WalkRecorder {
- public:
-  LightGatherer(const Scene& scene, const PathSettings& settings, Sampler& sampler)
-      : scene_(scene), settings_(settings), sampler_(sampler) {}
-
-  const PixelSample& result() const { return result_; }
-
-  void on_segment(const Ray&, const Medium& medium, const PathState& state, const Traveller::Leg& leg) {
-    if (medium.emits() && (state.depth > 0 || !settings_.hide_emitters)) gather(state, leg.emission);
-  }
-  void passed_medium(const Spectrum& proxy) {
-    const Spectrum passed = straight_ * proxy;
-    if (!straight_.is_black()) passing_prob_ *= passed.sum() / straight_.sum();
-    straight_ = passed;
-  }
-  void passed_surface(const Spectrum& through) {
-    passing_prob_ *= null_prob(through);
-    straight_ *= through;
-  }
-
-  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-    if (traveller.blind()) return;
-    estimate_direct(event.position, state, traveller, [&](const Vec3& wi) {
-      const float f = event.medium.phase().eval(dot(event.direction, wi));
-      return Bsdf::Eval{Spectrum(f), f};
-    });
-  }
-  void left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState& state,
-                      const Traveller& traveller) {
-    set_out(event.position, traveller.blind() ? 0 : event.medium.phase().eval(mu), state.throughput);
-  }
-
-  void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
-    if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
-    const SurfacePoint& point = event.point;
-    estimate_direct(
-        point.p, state, traveller,
-        [&](const Vec3& wi) {
-          const Vec3 wi_local = point.to_local(wi);
-          if (wi_local.z * dot(wi, point.ng) <= 0) return Bsdf::Eval{};
-          return event.object.bsdf->eval(point, event.given_local, wi_local, TransportMode::kRadiance);
-        },
-        &event);
-  }
-  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
-                    const Traveller&) {
-    set_out(event.point.leave(chosen), sample.pdf_w, state.throughput);
-  }
-
-  void at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
-                const Traveller& traveller) {
-    if (state.depth == 1 && settings_.hide_emitters) return;
-    const SurfaceEmitter& emitter = *object.emitter;
-    const Spectrum Le = emitter.Le(point, -traveller.ray().direction);
-    if (Le.is_black()) return;
-    gather(state, Le * hit_weight([&] {
-                    return scene_.choice_prob(scene_.emitter_index(hit)) *
-                           emitter.pdf_direct_w(last_position_, point.p, point.ng);
-                  }));
-  }
-  void at_escape(const PathState& state, const Traveller& traveller) {
-    if (state.depth == 1 && settings_.hide_emitters) return;
-    const Vec3& direction = traveller.ray().direction;
-    for (const ChosenEnvironment& environment : scene_.environments()) {
-      gather(state, environment.emitter->Le(direction) *
-                        hit_weight([&] { return environment.prob * environment.emitter->pdf_direct_w(direction); }));
-    }
-  }
-
- private:
-  /// Begins a new edge whose direction was chosen with density pdf_w; 0: no other technique can choose it.
-  void set_out(const Vec3& position, float pdf_w, const Spectrum& throughput) {
-    last_position_ = position;
-    last_pdf_w_ = pdf_w;
-    passing_prob_ = 1;
-    straight_ = throughput;
-  }
-
-  /// Of light met by chance; `light_pdf_w`: density of next-event estimation, 1/sr where the direction was chosen.
-  template <class Pdf>
-  float hit_weight(const Pdf& light_pdf_w) const {
-    return last_pdf_w_ == 0 ? 1 : mis_weight(last_pdf_w_ * passing_prob_, light_pdf_w());
-  }
-
-  void gather(const PathState& state, const Spectrum& value) {
-    if (settings_.order_counts(state.order)) add(state.order, state.throughput * value);
-  }
-
-  void add(int order, const Spectrum& light) {
-    result_.radiance += light;
-    result_.by_order[std::min(order, kOrderClasses - 1)] += light;
-  }
-
-  /// Next-event estimation: one light, one point on it. `scatter(wi)` gives the value of the scattering and its
-  /// density.
-  template <class Scatter>
-  void estimate_direct(const Vec3& from, const PathState& state, const Traveller& traveller, const Scatter& scatter,
-                       const SurfaceEvent* surface = nullptr) {
-    float u_light = sampler_.next_1d();
-    const Vec2 u = sampler_.next_2d();
-    const EmitterChoice choice = scene_.choose_emitter(u_light);
-    if (!choice.emitter || !settings_.order_counts(state.order)) return;
-    const auto light = choice.emitter->sample_direct(from, u);
-    if (!light) return;
-    const Bsdf::Eval scattered = scatter(light->wi);
-    if (scattered.value.is_black()) return;
-
-    const Spectrum towards = state.throughput * scattered.value;
-    const Ray shadow = ray_to_light(*light, surface ? surface->point.leave(light->wi) : from);
-    const Passage passage = traveller.look_along(shadow, towards, surface);
-    if (passage.prob == 0) return;
-    const float weight = light->delta ? 1 : mis_weight(choice.prob * light->pdf_w, scattered.pdf_w * passage.prob);
-    add(state.order, towards * passage.transmittance * light->weight * (weight / choice.prob));
-  }
-
-  const Scene& scene_;
-  const PathSettings& settings_;
-  Sampler& sampler_;
-
-  PixelSample result_{Spectrum(0.0f), 0};
-  Vec3 last_position_;      ///< where the current direction was chosen ...
-  float last_pdf_w_ = 0;    ///< ... and its density, 1/sr; 0 where next-event estimation could not have found its way
-  float passing_prob_ = 1;  ///< see Passage::prob
-  /// The throughput when the current edge began, times what pass_straight would multiply it by on the same way.
-  Spectrum straight_{1.0f};
-};
-
 template <bool kSeesMedia>
-PixelSample trace(const Scene& scene, const PathSettings& settings, const SensorRay& camera, Sampler& sampler,
-                  SampleCounters& counters) {
-  LightGatherer gatherer(scene, settings, sampler);
+PixelSample trace(const Scene& scene, const PathSettings& settings, const ConnectionSettings& connection,
+                  const SensorRay& camera, Sampler& sampler, SampleCounters& counters) {
+  LightGatherer gatherer(scene, settings, connection, sampler, counters);
   CameraWalk<LightGatherer, kSeesMedia> walk(scene, settings, sampler, counters, gatherer);
   const float alpha = walk.run(camera);
   PixelSample sample = gatherer.result();
@@ -153,21 +18,20 @@ PixelSample trace(const Scene& scene, const PathSettings& settings, const Sensor
 
 using Kind = PathTracer::Kind;
 
-template <Kind kKind>
-IntegratorSetup make(const Properties& properties) {
-  return {std::make_shared<PathTracer>(kKind, path_settings(properties)), false};
+IntegratorSetup make_surfaces(const Properties& properties) {
+  return {std::make_shared<PathTracer>(Kind::kSurfaces, path_settings(properties)), false};
 }
 
 }  // namespace
 
 PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                         SampleCounters& counters) const {
-  return kind_ == Kind::kVolumes ? trace<true>(scene, settings_, camera, sampler, counters)
-                                 : trace<false>(scene, settings_, camera, sampler, counters);
+  return kind_ == Kind::kVolumes ? trace<true>(scene, settings_, connection_, camera, sampler, counters)
+                                 : trace<false>(scene, settings_, connection_, camera, sampler, counters);
 }
 
 IntegratorPlugin path_row() {
-  return {"path", {}, "path tracing on surfaces; media are ignored", with_common_parameters({}), make<Kind::kSurfaces>};
+  return {"path", {}, "path tracing on surfaces; media are ignored", with_common_parameters({}), make_surfaces};
 }
 
 IntegratorPlugin direct_row() {
@@ -179,15 +43,19 @@ IntegratorPlugin direct_row() {
                                   {"emitter_samples", ParameterType::kInteger, "1", ignored},
                                   {"bsdf_samples", ParameterType::kInteger, "1", ignored}},
                                  "2"),
-          make<Kind::kSurfaces>};
+          make_surfaces};
 }
 
 IntegratorPlugin volpath_row() {
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
-          with_common_parameters({}),
-          make<Kind::kVolumes>};
+          with_common_parameters(connection_parameters("nee", "light")),
+          [](const Properties& properties) {
+            return IntegratorSetup{std::make_shared<PathTracer>(Kind::kVolumes, path_settings(properties),
+                                                                connection_settings(properties, "nee")),
+                                   false};
+          }};
 }
 
 }  // namespace turbid

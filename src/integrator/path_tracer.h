@@ -14,7 +14,9 @@ class PathTracer : public SamplingIntegrator {
     kVolumes,   ///< `volpath`: media scatter; straight passage is free for paths and for shadow rays
   };
 
-  PathTracer(Kind kind, const PathSettings& settings) : kind_(kind), settings_(settings) {}
+  /// `connection`: how collisions next to a light are found; kVolumes only.
+  PathTracer(Kind kind, const PathSettings& settings, const ConnectionSettings& connection = {})
+      : kind_(kind), settings_(settings), connection_(connection) {}
 
   bool sees_media() const override { return kind_ == Kind::kVolumes; }
 
@@ -25,6 +27,7 @@ class PathTracer : public SamplingIntegrator {
  private:
   Kind kind_;
   PathSettings settings_;
+  ConnectionSettings connection_;
 };
 
 /// Rows of the integrator table: `path`, `direct`, `volpath`.

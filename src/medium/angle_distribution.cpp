@@ -11,8 +11,6 @@
 namespace turbid {
 namespace {
 
-constexpr float kBelowPi = 0x1.921fb4p+1f;  // the largest float below pi
-
 /// Where to begin: quarters of octaves towards both ends, where peaks stand, and the landmarks. Below the first angle
 /// every phase function here is flat.
 std::vector<double> start_angles(const PhaseFunction& phase) {
@@ -29,16 +27,45 @@ std::vector<double> start_angles(const PhaseFunction& phase) {
   return angles;
 }
 
+/// The quadratic through three values at equal distances, or a line where that would become negative.
+struct Quadratic {
+  double slope, bend;  ///< along the distance before the end
+  Quadratic(double begin, double middle, double end, double width)
+      : slope((-3 * end + 4 * middle - begin) / width), bend(2 * (end - 2 * middle + begin) / (width * width)) {
+    const double turn = bend > 0 ? -slope / (2 * bend) : -1;
+    const bool dips = turn > 0 && turn < width && end + turn * (slope + turn * bend) < 0;
+    if (middle >= 0 && !dips) return;
+    slope = (begin - end) / width;
+    bend = 0;
+  }
+};
+
+/// Where an increasing function of w in [0, width] has the value `wanted`: Newton's method, kept in its bracket.
+template <class Function, class Derivative>
+double invert(double width, double wanted, const Function& function, const Derivative& derivative) {
+  double low = 0, high = width;
+  const double begin = function(0), end = function(width);
+  if (!(end > begin)) return 0;
+  double w = std::clamp((wanted - begin) / (end - begin), 0.0, 1.0) * width;
+  for (int i = 0; i < 60; ++i) {
+    const double off = function(w) - wanted;
+    (off < 0 ? low : high) = w;
+    double next = w - off / derivative(w);
+    if (!(next >= low && next <= high)) next = (low + high) / 2;
+    if (std::abs(next - w) <= 1e-12 * width) return next;
+    w = next;
+  }
+  return w;
+}
+
 }  // namespace
 
 AngleDistribution::AngleDistribution(const PhaseFunction& phase) {
-  const auto weight = [&](double theta) {
-    return theta * static_cast<double>(phase.eval_angle(static_cast<float>(theta)));
-  };
+  const auto f = [&](double theta) { return static_cast<double>(phase.eval_angle(static_cast<float>(theta))); };
   const std::vector<Node> nodes = refine(
-      weight, [](double theta) { return theta; }, start_angles(phase));
+      f, [](double theta) { return theta; }, start_angles(phase));
 
-  std::vector<float> angles, cdf;
+  std::vector<float> angles;
   std::vector<double> values;
   for (const Node& node : nodes) {
     if (!(node.value >= 0) || !std::isfinite(node.value))
@@ -48,45 +75,62 @@ AngleDistribution::AngleDistribution(const PhaseFunction& phase) {
     angles.push_back(angle);
     values.push_back(node.value);
   }
-
-  double integral = 0;
-  for (size_t i = 0; i < angles.size(); ++i) {
-    table_.push_back({angles[i], 0, integral});
-    if (i + 1 == angles.size()) break;
-    const double begin = static_cast<double>(angles[i]), width = static_cast<double>(angles[i + 1]) - begin;
-    integral += width * (values[i] + values[i + 1]) / 2;
-    // Z is what the weights scale with, so it is taken more precisely than from the table: Simpson's rule.
-    moment_ += width * (values[i] + 4 * weight(begin + width / 2) + values[i + 1]) / 6;
+  for (size_t i = 0; i + 1 < angles.size(); ++i) {
+    const double begin = static_cast<double>(angles[i]),
+                 end = std::min(static_cast<double>(angles[i + 1]), std::numbers::pi);
+    const double width = end - begin;
+    const Quadratic q(values[i], f(begin + width / 2), values[i + 1], width);
+    table_.push_back({end, width, values[i + 1], q.slope, q.bend});
   }
-  if (!(integral > 0)) throw std::invalid_argument("a phase function is zero everywhere");
-  for (size_t i = 0; i < angles.size(); ++i) {
-    table_[i].density = static_cast<float>(values[i] / integral);
-    table_[i].cdf /= integral;
-    cdf.push_back(static_cast<float>(table_[i].cdf));
+  // From pi down, so that small tails keep their digits.
+  for (size_t i = table_.size() - 1; i-- > 0;) {
+    const Interval& after = table_[i + 1];
+    table_[i].tail = after.tail_at(after.width);
+    table_[i].integral = after.integral_at(after.width);
   }
-  theta_index_ = NodeIndex(std::move(angles));
-  cdf_index_ = NodeIndex(std::move(cdf));
+  index_ = NodeIndex(std::move(angles));
+  if (!(moment() > 0)) throw std::invalid_argument("a phase function is zero everywhere");
 }
 
-float AngleDistribution::sample(float u) const {
-  // The middle of the step of 2^-24 that u stands for: never an end, where the density may be 0.
-  const double centred = static_cast<double>(u) + 0x1p-25;
-  const size_t i = cdf_index_.interval(static_cast<float>(centred));
-  const Entry &begin = table_[i], &end = table_[i + 1];
-  const double width = static_cast<double>(end.theta) - static_cast<double>(begin.theta);
-  // In the interval the CDF grows by width (p0 t + (p1 - p0) t^2 / 2), t in [0, 1]; the root without cancellation.
-  const auto p0 = static_cast<double>(begin.density), p1 = static_cast<double>(end.density);
-  const double c = (centred - begin.cdf) / width;
-  const double denominator = p0 + std::sqrt(std::max(0.0, p0 * p0 + 2 * (p1 - p0) * c));
-  const double t = denominator > 0 ? std::clamp(2 * c / denominator, 0.0, 1.0) : 0.0;
-  return std::min(static_cast<float>(static_cast<double>(begin.theta) + width * t), kBelowPi);
+double AngleDistribution::sample(double from, double to, double u) const {
+  const double last = integral(to), wanted = last + (integral(from) - last) * (1 - u);
+  // The last interval in which the integral has not yet fallen below what is wanted.
+  const auto found =
+      std::partition_point(table_.begin(), table_.end() - 1, [&](const Interval& i) { return i.integral > wanted; });
+  const double w = invert(
+      found->width, wanted, [&](double x) { return found->integral_at(x); },
+      [&](double x) { return found->tail_at(x); });
+  return std::clamp(found->end - w, from, to);
 }
 
-float AngleDistribution::pdf(float theta) const {
-  const size_t i = theta_index_.interval(theta);
-  const Entry &begin = table_[i], &end = table_[i + 1];
-  const float t = (theta - begin.theta) / (end.theta - begin.theta);
-  return begin.density + std::clamp(t, 0.0f, 1.0f) * (end.density - begin.density);
+double AngleDistribution::sample_beyond(double gamma, double u) const {
+  const double wanted = tail(gamma) * (1 - u);
+  if (!(wanted > 0)) return gamma;
+  const auto found =
+      std::partition_point(table_.begin(), table_.end() - 1, [&](const Interval& i) { return i.tail > wanted; });
+  const double w = invert(
+      found->width, wanted, [&](double x) { return found->tail_at(x); }, [&](double x) { return found->f_at(x); });
+  return std::max(found->end - w, gamma);
+}
+
+double AngleDistribution::pdf_beyond(double gamma, double theta) const {
+  const double all = tail(gamma);
+  return theta >= gamma && all > 0 ? f(theta) / all : 0;
+}
+
+double AngleDistribution::f(double theta) const {
+  const Interval& i = interval(theta);
+  return std::max(i.f_at(std::clamp(i.end - theta, 0.0, i.width)), 0.0);
+}
+
+double AngleDistribution::tail(double theta) const {
+  const Interval& i = interval(theta);
+  return i.tail_at(std::clamp(i.end - theta, 0.0, i.width));
+}
+
+double AngleDistribution::integral(double theta) const {
+  const Interval& i = interval(theta);
+  return i.integral_at(std::clamp(i.end - theta, 0.0, i.width));
 }
 
 }  // namespace turbid

@@ -15,11 +15,11 @@ struct Joined {
 std::optional<Joined> join(const Scene& scene, const StrategyWeights& weights, const Vertex& from_sensor,
                            const Vertex& from_light, const Traveller& traveller);
 
-/// What look_along needs to know of a vertex: where the line starts, and the surface if it is one.
-inline Passage look_along(const Traveller& traveller, const Vertex& vertex, const Ray& line) {
-  if (!vertex.is_surface()) return traveller.look_along(line, Spectrum(1.0f));
-  const SurfaceEvent surface = vertex.surface_event();
-  return traveller.look_along(line, Spectrum(1.0f), &surface);
+/// Traveller::look_along from a vertex.
+inline Passage look_along(const Traveller& traveller, const Vertex& vertex, const Ray& line,
+                          const Spectrum& throughput = Spectrum(1.0f)) {
+  const auto surface = vertex.surface_event();
+  return traveller.look_along(line, throughput, surface ? &*surface : nullptr);
 }
 
 /// 1/distance^2. (Two collisions may round to the same place.)

@@ -1,6 +1,8 @@
 #pragma once
 #include <optional>
 
+#include "core/cone.h"
+#include "core/spectrum.h"
 #include "core/vector.h"
 #include "medium/phase_function.h"
 
@@ -13,13 +15,26 @@ namespace turbid {
 ///   dx1 = (d1^2 d2^2 / s) dtheta dbeta dphi  for all theta in (0, pi)   (NUMERICS 2.1).
 /// Both inverse squares cancel, for forward and for backward scattering; x1 may lie beyond either end.
 enum class Insertion {
-  /// theta with density theta f(cos theta) / Z, beta uniform in (0, theta): f / (d1^2 d2^2) over the density is the
-  /// constant 2 pi Z / s, on the whole sphere (NUMERICS 2.2).
+  /// Density f / Z in theta and gamma = theta - beta, so theta with density theta f / Z: f / (d1^2 d2^2) over the
+  /// density
+  /// of x1 is the constant 2 pi Z / s, on the whole sphere (NUMERICS 2.2). Where x2 gives or takes light in a cone
+  /// only,
+  /// gamma and the azimuth are confined to it, and Z shrinks.
   kAngle,
   /// theta by the phase function in solid angle, beta uniform in (0, theta), as published (S3 eq. 41-43). Only the
   /// forward hemisphere, theta < pi/2: the weight theta / (s sin theta) has no variance near pi. Half of the sphere is
   /// never sampled: exact for phase functions that only scatter forward, one of several techniques for others.
   kSolidAngle,
+  /// Both geometry terms alone, as if the medium scattered isotropically: theta with density 2 theta / pi^2. This is
+  /// joint importance sampling (Georgiev et al. 2013) where one collision stands between two points.
+  kGeometry,
+};
+
+/// What a path ends with: a point, or a direction (unit, towards it) where the light comes from infinity.
+struct PathEnd {
+  Vec3 place;
+  bool at_infinity = false;
+  Cone cone{};  ///< of the directions from a point in which it gives or takes light
 };
 
 /// Where x1 lies as seen from both ends.
@@ -33,12 +48,23 @@ struct InsertedCollision {
   double pdf_v = 0;  ///< 1/volume
 };
 
-/// Draws x1; takes three numbers. Empty where the ends coincide, where the drawn triangle is too flat or too large for
-/// single precision, and for kSolidAngle where the light would turn back.
-std::optional<InsertedCollision> insert_collision(const PhaseFunction& phase, const Vec3& x0, const Vec3& x2,
+/// Draws x1 between a point and the end of a path that is a point too; takes three numbers. Empty where the ends
+/// coincide, where the drawn triangle is too flat or too large for single precision, and for kSolidAngle where the
+/// light would turn back.
+std::optional<InsertedCollision> insert_collision(const PhaseFunction& phase, const Vec3& x0, const PathEnd& x2,
                                                   Insertion insertion, float u_theta, float u_beta, float u_phi);
 
 /// Density with which insert_collision draws a given x1, 1/volume; 0 where it never does.
-double insertion_pdf_v(const PhaseFunction& phase, const Vec3& x0, const Vec3& x1, const Vec3& x2, Insertion insertion);
+double insertion_pdf_v(const PhaseFunction& phase, const Vec3& x0, const Vec3& x1, const PathEnd& x2,
+                       Insertion insertion);
+
+/// Where the other end is a direction, the deflection theta is the angle at x0 and only the direction to x1 is special:
+/// it is drawn by the phase function (kGeometry: uniformly), the distance d1 with density mean(sigma_t exp(-sigma_t
+/// d1)) over the channels. Takes three numbers; d2 is infinite.
+std::optional<InsertedCollision> insert_collision_towards(const PhaseFunction& phase, const Spectrum& sigma_t,
+                                                          const Vec3& x0, const Vec3& direction, Insertion insertion,
+                                                          float u_theta, float u_phi, float u_distance);
+double insertion_pdf_v_towards(const PhaseFunction& phase, const Spectrum& sigma_t, const Vec3& x0, const Vec3& x1,
+                               const Vec3& direction, Insertion insertion);
 
 }  // namespace turbid

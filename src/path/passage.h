@@ -37,14 +37,21 @@ inline Spectrum channel_mix(const Spectrum& throughput) {
 Passage pass_straight(const Scene& scene, Ray ray, const Medium* medium, Spectrum throughput, const Sampler& sampler,
                       SampleCounters& counters, const MediumStack* enclosing = nullptr);
 
+/// From one place to another in the midst of a medium; of no length where they are the same.
+inline Ray line_to(const Vec3& origin, const Vec3& end) {
+  const Vec3 way = end - origin;
+  const float distance = length(way);
+  if (!(distance > 0)) return {origin, Vec3(0, 0, 1), 0};
+  return {origin, way / distance, distance};
+}
+
 /// From one place to just before another; of no length, in any direction, where they are the same.
 inline Ray line_between(const Vec3& origin, const Vec3& end) {
   // The end is known to a few units in the last place of the distance.
   constexpr float kBeforeEnd = 1 - 1e-5f;
-  const Vec3 way = end - origin;
-  const float distance = length(way);
-  if (!(distance > 0)) return {origin, Vec3(0, 0, 1), 0};
-  return {origin, way / distance, distance * kBeforeEnd};
+  Ray line = line_to(origin, end);
+  line.t_max *= kBeforeEnd;
+  return line;
 }
 
 /// From `origin` to just before a light.

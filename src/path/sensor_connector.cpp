@@ -1,5 +1,7 @@
 #include "path/sensor_connector.h"
 
+#include <array>
+
 namespace turbid {
 
 SensorConnector::SensorConnector(const Scene& scene, double paths, const Sampler& sampler, SampleCounters& counters)
@@ -9,7 +11,31 @@ SensorConnector::SensorConnector(const Scene& scene, double paths, const Sampler
       // The mean over the film, times its pixels, is the integral over the film in units of pixels.
       scale_(static_cast<float>(static_cast<double>(film_.size.x) * static_cast<double>(film_.size.y) / paths)),
       sampler_(sampler),
-      counters_(counters) {}
+      counters_(counters) {
+  if (scene.sensor().aperture_point(Vec2(0.5f))) view_ = find_view(Vec2(0.5f));
+}
+
+/// What a rectangle of film sees is the convex hull of four rays.
+Cone SensorConnector::find_view(const Vec2& u_aperture) const {
+  const float support = film_.filter.support();
+  std::array<Vec3, 4> corners;
+  Vec3 sum(0);
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const auto edge = [&](bool far, int offset, int size, int whole) {
+      const float at = far ? static_cast<float>(offset + size) + support : static_cast<float>(offset) - support;
+      return at / static_cast<float>(whole);
+    };
+    const Vec2 film(edge(i & 1, film_.crop_offset.x, crop_.x, film_.size.x),
+                    edge(i & 2, film_.crop_offset.y, crop_.y, film_.size.y));
+    corners[i] = scene_.sensor().sample_ray(film, u_aperture).ray.direction;
+    sum = sum + corners[i];
+  }
+  const Vec3 axis = normalize(sum);
+  double half_angle = 0;
+  for (const Vec3& corner : corners) half_angle = std::max(half_angle, angle_between(axis, corner));
+  constexpr float kRounding = 1e-5f;
+  return {axis, std::min(static_cast<float>(half_angle) + kRounding, kPi)};
+}
 
 template <class Look>
 std::optional<SensorArrival> SensorConnector::arrive_by(const SensorConnection& way, const Vec3& origin,

@@ -26,8 +26,16 @@ class SensorConnector {
 
   /// The way from a point to the aperture. Empty where the sensor does not look.
   std::optional<SensorConnection> way_from(const Vec3& p) const {
+    return scene_.sensor().connect(p, aperture_numbers(p));
+  }
+  /// Those with which way_from chooses the point of the aperture.
+  Vec2 aperture_numbers(const Vec3& p) const {
     Rng rng = sampler_.aside(p);
-    return scene_.sensor().connect(p, next_2d(rng));
+    return next_2d(rng);
+  }
+  /// The directions from a point of the aperture in which pixels look. Only for sensors with an aperture.
+  Cone view_from(const Vec2& u_aperture) const {
+    return scene_.sensor().needs_aperture() ? find_view(u_aperture) : view_;
   }
 
   /// Follows a way_from a point. `traveller` stands there; `surface` if it is one, `origin` lies off it. `flux`: what
@@ -52,6 +60,7 @@ class SensorConnector {
   float pdf(const SensorConnection& way) const { return way.importance * scale_; }
 
  private:
+  Cone find_view(const Vec2& u_aperture) const;
   template <class Look>
   std::optional<SensorArrival> arrive_by(const SensorConnection& way, const Vec3& origin, const Spectrum& flux,
                                          const Look& look) const;
@@ -69,6 +78,7 @@ class SensorConnector {
   const Scene& scene_;
   const FilmSettings& film_;
   Vec2i crop_;
+  Cone view_;    ///< of sensors without needs_aperture()
   float scale_;  ///< pixels of the whole film per light path
   const Sampler& sampler_;
   SampleCounters& counters_;

@@ -1,4 +1,6 @@
 #pragma once
+#include <optional>
+
 #include "path/adjoint.h"
 #include "path/events.h"
 #include "path/strategy_sums.h"
@@ -39,7 +41,11 @@ struct Vertex {
         events(1.0f) {}
 
   bool is_surface() const { return object != nullptr; }
-  SurfaceEvent surface_event() const { return {*object, point, given, given_local}; }
+  /// Empty at collisions.
+  std::optional<SurfaceEvent> surface_event() const {
+    if (!is_surface()) return std::nullopt;
+    return SurfaceEvent{*object, point, given, given_local};
+  }
   /// Where rays in this direction start.
   Vec3 leave(const Vec3& direction) const { return is_surface() ? point.leave(direction) : position; }
   /// On the side that the direction leads to. Not for scenes with priorities.

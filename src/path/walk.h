@@ -10,8 +10,9 @@ namespace turbid {
 /// What a recorder may be told of; recorders derive from this and hide what they want to hear (no virtual calls: Walk
 /// knows its recorder at compile time). The traveller stands at the vertex and can look along lines from there.
 struct WalkRecorder {
-  /// A light path is about to leave its light.
+  /// A path is about to leave its light, or the sensor (at the near plane).
   void at_emitter(const Emission&, const Traveller&) {}
+  void at_sensor(const PathState&, const Traveller&) {}
   /// A straight piece of flight in a medium, from the ray's origin to its t_max; the state is that at its start.
   void on_segment(const Ray&, const Medium&, const PathState&, const Traveller::Leg&) {}
   /// The walk went straight on: through a medium (Medium::proxy_transmittance of the way), or through a surface
@@ -65,6 +66,7 @@ class Walk {
         throughput_ *= medium->transmittance({camera.ray.origin, camera.ray.direction, camera.near_t}, sampler_);
       traveller_.skip(camera.near_t);
     }
+    recorder_.at_sensor(state(), traveller_);
     follow();
     return alpha_;
   }

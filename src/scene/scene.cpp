@@ -79,6 +79,12 @@ void Scene::measure_world() {
   }
 }
 
+const Medium* Scene::thinnest_medium() const {
+  const auto thinnest = std::max_element(
+      media_.begin(), media_.end(), [](const auto& a, const auto& b) { return a.mean_free_path < b.mean_free_path; });
+  return thinnest == media_.end() ? nullptr : thinnest->medium;
+}
+
 bool Scene::has_unbounded_media() const {
   return std::any_of(media_.begin(), media_.end(), [](const Surroundings& m) { return !m.bounded; });
 }

@@ -132,6 +132,8 @@ class Scene {
   const Medium* world_medium() const { return parts_.world_medium.get(); }
   /// All media of the scene, each once.
   const std::vector<Surroundings>& media() const { return media_; }
+  /// That with the longest mean free path; null without media.
+  const Medium* thinnest_medium() const;
   /// Some medium has no closed boundary around it (Surroundings::bounded), and may reach to the end of the world.
   bool has_unbounded_media() const;
   /// What is known about the space that a medium of this scene fills.
