@@ -12,11 +12,18 @@ inline double angle_between(const Vec3& a, const Vec3& b) {
 
 /// Directions within an angle of an axis.
 struct Cone {
-  Vec3 axis{0, 0, 1};      ///< unit
-  float half_angle = kPi;  ///< radians; pi: all directions
+  Vec3 axis{0, 0, 1};                    ///< unit
+  double half_angle = std::numbers::pi;  ///< radians; pi: all directions
+  double cosine = -1;                    ///< of half_angle
 
+  Cone() = default;
+  Cone(const Vec3& towards, double angle) : axis(towards), half_angle(angle), cosine(std::cos(angle)) {}
+
+  bool is_everything() const { return half_angle >= std::numbers::pi; }
+  /// Of any length.
   bool contains(const Vec3& direction) const {
-    return half_angle >= kPi || angle_between(axis, direction) <= static_cast<double>(half_angle);
+    return is_everything() ||
+           static_cast<double>(dot(axis, direction)) >= cosine * static_cast<double>(length(direction));
   }
 };
 

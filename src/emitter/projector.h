@@ -26,7 +26,8 @@ class Projector final : public Emitter {
     return intensity(direction);
   }
   Cone cone() const override {
-    return {normalize(to_world_.vector({0, 0, 1})), std::atan(std::hypot(half_width_, half_height_)) + 1e-5f};
+    return {normalize(to_world_.vector({0, 0, 1})),
+            std::atan(std::hypot(static_cast<double>(half_width_), static_cast<double>(half_height_))) + 1e-5};
   }
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }

@@ -25,7 +25,7 @@ class SpotLight final : public Emitter {
   std::optional<Spectrum> emission_towards(const EmissionSample&, const Vec3& direction) const override {
     return intensity(direction);
   }
-  Cone cone() const override { return {axis_.n, cutoff_}; }
+  Cone cone() const override { return {axis_.n, static_cast<double>(cutoff_)}; }
   bool can_be_hit() const override { return false; }
   Bounds3 bounds() const override { return Bounds3(position_); }
   /// Exact without a texture; with one, its mean stands for it.

@@ -33,7 +33,7 @@ double advantage_of_walk(float choice, const DirectLightSample& from_x0, const D
 
 PathEnd end_at(const Emitter& emitter, const DirectLightSample& light) {
   if (!std::isfinite(light.distance)) return {light.wi, true};
-  return {light.position, false, light.delta ? emitter.cone() : Cone{light.ng, kPi / 2}};
+  return {light.position, false, light.delta ? emitter.cone() : Cone{light.ng, std::numbers::pi / 2}};
 }
 
 }  // namespace
@@ -157,15 +157,13 @@ void LightGatherer::estimate_direct(const Vec3& from, const PathState& state, co
   add(state.order, towards * passage.transmittance * light->weight * (share * weight / choice.prob));
 }
 
-float LightGatherer::share_of_walk(const Arrival& arrival, const EmitterChoice& choice, const DirectLightSample& light,
+float LightGatherer::share_of_walk(const Edge& arrival, const EmitterChoice& choice, const DirectLightSample& light,
                                    float hit_pdf_w) const {
   if (!arrival.from.medium) return 1;
   const auto from_x0 = choice.emitter->seen_from(arrival.from.position, light);
   if (!from_x0) return 1;
-  CollisionDensities all = maker_.densities(arrival.from, arrival.direction, arrival.length,
-                                            end_at(*choice.emitter, light), arrival.sigma, arrival.proxy);
-  all.walk *= advantage_of_walk(choice.prob, *from_x0, light, hit_pdf_w);
-  return static_cast<float>(maker_.walk_weight(all));
+  const double advantage = maker_.weighs() ? advantage_of_walk(choice.prob, *from_x0, light, hit_pdf_w) : 1;
+  return static_cast<float>(maker_.walk_weight(arrival, end_at(*choice.emitter, light), advantage));
 }
 
 // --- collisions made for a light
@@ -198,9 +196,10 @@ void LightGatherer::insert_from(const Vertex& vertex, const PathState& state, co
   const Passage passage = look_along(traveller, vertex, line_to(vertex.leave(x1->arrives), x1->position), leaving);
   if (!scatters_as_expected(from, passage)) return;
   from.pdf_w = scattered.pdf_w;
-  CollisionDensities all =
-      maker_.densities(from, x1->arrives, x1->d1, end, passage.medium->proxy_sigma_t(x1->position), passage.proxy);
-  all.inserted = x1->pdf_v;
+  CollisionDensities all;
+  if (maker_.weighs())
+    all = maker_.densities({from, x1->arrives, x1->d1, passage.medium->proxy_sigma_t(x1->position), passage.proxy}, end,
+                           x1->pdf_v);
   const double factor = inverse_square(vertex.position, x1->position) / x1->pdf_v;
   finish({x1->position, x1->arrives, *passage.medium}, *light, leaving * passage.transmittance, factor, all,
          &CollisionDensities::inserted, state);
@@ -221,8 +220,9 @@ void LightGatherer::depart(const Departure& from, const PathState& state, const 
   const Passage passage = traveller.look_along({traveller.ray().origin, direction, distance->t}, state.throughput);
   if (!scatters_as_expected(from, passage)) return;
   const Vec3 x1 = from.position + direction * distance->t;
-  const CollisionDensities all =
-      maker_.densities(from, direction, distance->t, end, passage.medium->proxy_sigma_t(x1), passage.proxy);
+  CollisionDensities all;
+  if (maker_.weighs())
+    all = maker_.densities({from, direction, distance->t, passage.medium->proxy_sigma_t(x1), passage.proxy}, end);
   finish({x1, direction, *passage.medium}, *light, state.throughput * passage.transmittance, 1 / distance->pdf_t, all,
          &CollisionDensities::along, state);
 }
@@ -236,13 +236,16 @@ void LightGatherer::finish(const CollisionEvent& x1, const LightEnd& light, cons
   const float f = x1.medium.phase().eval(dot(x1.direction, from_x1->wi));
   const Spectrum towards = arrived * x1.medium.sigma_s_at(x1.position) * f;
   if (towards.is_black()) return;
-  all.walk *= advantage_of_walk(choice.prob, light.from_x0, *from_x1, choice.emitter->can_be_hit() ? f : 0);
+  if (maker_.weighs()) {
+    all.walk *= advantage_of_walk(choice.prob, light.from_x0, *from_x1, choice.emitter->can_be_hit() ? f : 0);
+    factor *= ConnectionSampler::weight(all.*own, all);
+  }
   const Passage passage =
       pass_straight(scene_, ray_to_light(*from_x1, x1.position), &x1.medium, towards, sampler_, counters_);
   if (passage.prob == 0) return;
   // The weight stands for a density at x1: it is turned into that with which x2 was chosen.
   const double chosen = from_x1->delta ? 1 : static_cast<double>(from_x1->pdf_w) / pdf_at_x1(light.from_x0, *from_x1);
-  const double weight = maker_.weight(all.*own, all) * factor * chosen / static_cast<double>(choice.prob);
+  const double weight = factor * chosen / static_cast<double>(choice.prob);
   add(state.order + 1, towards * passage.transmittance * from_x1->weight * static_cast<float>(weight));
 }
 

@@ -48,13 +48,6 @@ class LightGatherer : public WalkRecorder {
   void at_escape(const PathState& state, const Traveller& traveller);
 
  private:
-  /// The edge behind the vertex where the walk is.
-  struct Arrival {
-    Departure from;  ///< medium null: no other technique makes the vertex
-    Vec3 direction;
-    float length = 0;
-    Spectrum sigma, proxy;  ///< see ConnectionSampler::densities
-  };
   /// A point of a light that was chosen from x0.
   struct LightEnd {
     EmitterChoice choice;
@@ -73,7 +66,7 @@ class LightGatherer : public WalkRecorder {
   float hit_weight(const EmitterChoice& choice, const DirectLightSample& light) const;
   /// The share of next-event estimation and of light met by chance in a path whose last edges are `arrival` and one to
   /// the light, seen from x1. `hit_pdf_w`: of the direction to it by chance, 1/sr; 0: never.
-  float share_of_walk(const Arrival& arrival, const EmitterChoice& choice, const DirectLightSample& light,
+  float share_of_walk(const Edge& arrival, const EmitterChoice& choice, const DirectLightSample& light,
                       float hit_pdf_w) const;
 
   void gather(const PathState& state, const Spectrum& value) {
@@ -118,8 +111,8 @@ class LightGatherer : public WalkRecorder {
   Spectrum proxy_{1.0f};              ///< of the edge so far (Passage::proxy)
   Departure departure_;               ///< of that edge
   const Medium* expected_ = nullptr;  ///< at the vertex where the walk is, see ConnectionSampler::expected
-  Arrival arrival_;                   ///< at that vertex ...
-  Arrival last_arrival_;              ///< ... and at the one where the edge began
+  Edge arrival_;                      ///< to that vertex (medium null: no other technique makes it) ...
+  Edge last_arrival_;                 ///< ... and to the one where the edge began
 };
 
 }  // namespace turbid

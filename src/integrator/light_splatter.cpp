@@ -80,9 +80,8 @@ void LightSplatter::join_with_sensor(const Vertex& vertex, bool shared, const Tr
   if (!way) return;
   double weight_here = 1;
   if (shared) {
-    const float d1 = length(vertex.position - last_.position);
-    weight_here = maker_.walk_weight(maker_.densities(
-        last_, -vertex.given, d1, end_at(connector_.aperture_numbers(vertex.position)), vertex.events, straight_));
+    const Edge edge{last_, -vertex.given, length(vertex.position - last_.position), vertex.events, straight_};
+    weight_here = maker_.walk_weight(edge, end_at(connector_.aperture_numbers(vertex.position)));
     if (weight_here == 0) return;
   }
   const Vec3 wo = normalize(way->position - vertex.position);
@@ -116,10 +115,11 @@ void LightSplatter::insert_from(const Vec3& x0, const PathState& state, const Tr
   const Passage passage = traveller.look_along(line_to(leaving.origin, x1->position), leaving.flux, surface);
   if (!scatters_as_expected(from, passage)) return;
   from.pdf_w = leaving.pdf_w;
-  CollisionDensities all =
-      maker_.densities(from, x1->arrives, x1->d1, end, passage.medium->proxy_sigma_t(x1->position), passage.proxy);
-  all.inserted = x1->pdf_v;
-  const double factor = maker_.weight(all.inserted, all) * inverse_square(x0, x1->position) / x1->pdf_v;
+  double factor = inverse_square(x0, x1->position) / x1->pdf_v;
+  if (maker_.weighs()) {
+    const Edge edge{from, x1->arrives, x1->d1, passage.medium->proxy_sigma_t(x1->position), passage.proxy};
+    factor *= ConnectionSampler::weight(x1->pdf_v, maker_.densities(edge, end, x1->pdf_v));
+  }
   finish(x1->position, *passage.medium, leaving.flux * passage.transmittance * x1->f, *way, factor, state);
 }
 
@@ -139,10 +139,13 @@ void LightSplatter::depart(const Departure& from, const PathState& state, const 
   if (!way) return;
   const Passage passage = traveller.look_along({traveller.ray().origin, direction, distance->t}, state.throughput);
   if (!scatters_as_expected(from, passage)) return;
-  const CollisionDensities all =
-      maker_.densities(from, direction, distance->t, end, passage.medium->proxy_sigma_t(x1), passage.proxy);
   const float f = passage.medium->phase().eval(dot(direction, normalize(end.place - x1)));
-  const double factor = maker_.weight(all.along, all) / distance->pdf_t;
+  double factor = 1 / distance->pdf_t;
+  if (maker_.weighs()) {
+    const Edge edge{from, direction, distance->t, passage.medium->proxy_sigma_t(x1), passage.proxy};
+    const CollisionDensities all = maker_.densities(edge, end);
+    factor *= ConnectionSampler::weight(all.along, all);
+  }
   finish(x1, *passage.medium, state.throughput * passage.transmittance * f, *way, factor, state);
 }
 

@@ -52,7 +52,8 @@ double invert(double width, double wanted, const Function& function, const Deriv
     (off < 0 ? low : high) = w;
     double next = w - off / derivative(w);
     if (!(next >= low && next <= high)) next = (low + high) / 2;
-    if (std::abs(next - w) <= 1e-12 * width) return next;
+    // The step after this one would be the square of this one.
+    if (std::abs(next - w) <= 1e-7 * width) return next;
     w = next;
   }
   return w;
@@ -88,34 +89,39 @@ AngleDistribution::AngleDistribution(const PhaseFunction& phase) {
     table_[i].tail = after.tail_at(after.width);
     table_[i].integral = after.integral_at(after.width);
   }
-  index_ = NodeIndex(std::move(angles));
+  by_theta_ = NodeIndex(std::move(angles));
   if (!(moment() > 0)) throw std::invalid_argument("a phase function is zero everywhere");
+  std::vector<float> tails, integrals;
+  for (size_t i = table_.size(); i-- > 0;) {
+    tails.push_back(static_cast<float>(table_[i].tail));
+    integrals.push_back(static_cast<float>(table_[i].integral));
+  }
+  tails.push_back(static_cast<float>(tail(0)));
+  integrals.push_back(static_cast<float>(integral(0)));
+  by_tail_ = NodeIndex(std::move(tails));
+  by_integral_ = NodeIndex(std::move(integrals));
 }
 
-double AngleDistribution::sample(double from, double to, double u) const {
-  const double last = integral(to), wanted = last + (integral(from) - last) * (1 - u);
-  // The last interval in which the integral has not yet fallen below what is wanted.
-  const auto found =
-      std::partition_point(table_.begin(), table_.end() - 1, [&](const Interval& i) { return i.integral > wanted; });
+double AngleDistribution::sample(const Range& range, double u) const {
+  const double wanted = range.last + range.moment() * (1 - u);
+  const Interval& found = table_[table_.size() - 1 - by_integral_.interval(static_cast<float>(wanted))];
   const double w = invert(
-      found->width, wanted, [&](double x) { return found->integral_at(x); },
-      [&](double x) { return found->tail_at(x); });
-  return std::clamp(found->end - w, from, to);
+      found.width, wanted, [&](double x) { return found.integral_at(x); }, [&](double x) { return found.tail_at(x); });
+  return std::clamp(found.end - w, range.from, range.to);
 }
 
-double AngleDistribution::sample_beyond(double gamma, double u) const {
-  const double wanted = tail(gamma) * (1 - u);
-  if (!(wanted > 0)) return gamma;
-  const auto found =
-      std::partition_point(table_.begin(), table_.end() - 1, [&](const Interval& i) { return i.tail > wanted; });
+double AngleDistribution::sample_beyond(double gamma, double u, double to) const {
+  const double last = tail(to), mass = tail(gamma) - last, wanted = last + mass * (1 - u);
+  if (!(mass > 0)) return gamma;
+  const Interval& found = table_[table_.size() - 1 - by_tail_.interval(static_cast<float>(wanted))];
   const double w = invert(
-      found->width, wanted, [&](double x) { return found->tail_at(x); }, [&](double x) { return found->f_at(x); });
-  return std::max(found->end - w, gamma);
+      found.width, wanted, [&](double x) { return found.tail_at(x); }, [&](double x) { return found.f_at(x); });
+  return std::clamp(found.end - w, gamma, to);
 }
 
-double AngleDistribution::pdf_beyond(double gamma, double theta) const {
-  const double all = tail(gamma);
-  return theta >= gamma && all > 0 ? f(theta) / all : 0;
+double AngleDistribution::pdf_beyond(double gamma, double theta, double to) const {
+  const double mass = tail(gamma) - tail(to);
+  return theta >= gamma && theta <= to && mass > 0 ? f(theta) / mass : 0;
 }
 
 double AngleDistribution::f(double theta) const {

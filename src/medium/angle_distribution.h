@@ -23,19 +23,27 @@ class AngleDistribution {
   /// somewhere.
   explicit AngleDistribution(const PhaseFunction& phase);
 
-  /// gamma between two bounds, 0 <= from <= to <= pi, by one number in [0,1). Density int_gamma^pi f / Z(from, to).
-  double sample(double from, double to, double u) const;
-  /// theta in (gamma, pi), by one number in [0,1); gamma itself where f is 0 everywhere beyond it.
-  double sample_beyond(double gamma, double u) const;
+  /// A range of gamma, 0 <= from <= to <= pi, and its Z.
+  struct Range {
+    double from, to;
+    double first, last;  ///< int_from^pi int_gamma^pi f dtheta dgamma; the same from `to`
+    double moment() const { return first - last; }
+  };
+  Range range(double from = 0, double to = std::numbers::pi) const { return {from, to, integral(from), integral(to)}; }
 
-  /// Density of a pair: of gamma from sample(from, to), theta from sample_beyond(gamma). 1/rad^2.
-  double pdf(double from, double to, double theta) const { return f(theta) / moment(from, to); }
-  /// Density of sample_beyond(gamma), 1/rad.
-  double pdf_beyond(double gamma, double theta) const;
+  /// gamma in a range, by one number in [0,1). Density int_gamma^pi f / Z.
+  double sample(const Range& range, double u) const;
+  /// theta beyond gamma, up to `to`, by one number in [0,1); gamma itself where f is 0 everywhere there.
+  double sample_beyond(double gamma, double u, double to = std::numbers::pi) const;
 
-  /// Z(from, to) in rad/sr. 2 pi Z(0, pi) is pi^2/4 for the isotropic phase function and 1 for one that only goes
-  /// straight on.
-  double moment(double from = 0, double to = std::numbers::pi) const { return integral(from) - integral(to); }
+  /// Density of a pair: of gamma from sample(range), theta from sample_beyond(gamma). 1/rad^2.
+  double pdf(const Range& range, double theta) const { return f(theta) / range.moment(); }
+  /// Density of sample_beyond(gamma, u, to), 1/rad.
+  double pdf_beyond(double gamma, double theta, double to = std::numbers::pi) const;
+
+  /// Z of all angles, rad/sr. 2 pi Z is pi^2/4 for the isotropic phase function and 1 for one that only goes straight
+  /// on.
+  double moment() const { return range().moment(); }
   /// Size of the table.
   size_t nodes() const { return table_.size() + 1; }
 
@@ -50,14 +58,15 @@ class AngleDistribution {
     double tail_at(double w) const { return tail + w * (f + w * (slope / 2 + w * bend / 3)); }
     double integral_at(double w) const { return integral + w * (tail + w * (f / 2 + w * (slope / 6 + w * bend / 12))); }
   };
-  const Interval& interval(double theta) const { return table_[index_.interval(static_cast<float>(theta))]; }
+  const Interval& interval(double theta) const { return table_[by_theta_.interval(static_cast<float>(theta))]; }
 
   double f(double theta) const;
   double tail(double theta) const;
   double integral(double theta) const;
 
   std::vector<Interval> table_;
-  NodeIndex index_;
+  NodeIndex by_theta_;
+  NodeIndex by_tail_, by_integral_;  ///< of the intervals from the last to the first: what each has at its end
 };
 
 }  // namespace turbid

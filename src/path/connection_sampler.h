@@ -36,6 +36,15 @@ inline bool scatters_as_expected(const Departure& from, const Passage& passage) 
   return passage.prob > 0 && passage.medium && &passage.medium->phase() == &from.medium->phase();
 }
 
+/// The way from x0 to x1.
+struct Edge {
+  Departure from;
+  Vec3 direction;
+  float length = 0;  ///< d1
+  Spectrum sigma;    ///< Medium::proxy_sigma_t at x1
+  Spectrum proxy;    ///< Passage::proxy
+};
+
 /// The densities of x1 by the techniques, per volume, or where the direction is given per volume times 1/sr; 0 where
 /// one does not apply.
 struct CollisionDensities {
@@ -72,17 +81,20 @@ class ConnectionSampler {
   /// A distance along the ray that leaves x0 in `direction`. Empty where the other end lies at infinity.
   std::optional<Distance> march(const Departure& from, const Vec3& direction, const PathEnd& end, float u) const;
 
-  /// Of x1 at the distance d1 in `direction`; `sigma` (Medium::proxy_sigma_t) there and `proxy` (Passage::proxy) of the
-  /// way to it.
-  CollisionDensities densities(const Departure& from, const Vec3& direction, float d1, const PathEnd& end,
-                               const Spectrum& sigma, const Spectrum& proxy) const;
+  /// `inserted`: where that density is known.
+  CollisionDensities densities(const Edge& edge, const PathEnd& end,
+                               std::optional<double> inserted = std::nullopt) const;
 
-  /// The weight of the technique whose density among `all` is `own`.
-  double weight(double own, const CollisionDensities& all) const;
-  /// That of the walk.
-  double walk_weight(const CollisionDensities& all) const;
+  /// False: a path is made by one technique alone, and nobody need ask for densities to weigh an x1 that was made.
+  bool weighs() const { return technique_ == ConnectionTechnique::kMis; }
+  /// The weight of the technique whose density among `all` is `own`: power heuristic.
+  static double weight(double own, const CollisionDensities& all);
+  /// That of the walk. `advantage`: what else it does better than the others, as a factor of its density.
+  double walk_weight(const Edge& edge, const PathEnd& end, double advantage = 1) const;
 
  private:
+  /// Whether another technique than the walk makes x1 at all.
+  bool makes(const Edge& edge, const PathEnd& end) const;
   double pdf_t(const Departure& from, const Vec3& direction, float t, const PathEnd& end) const;
 
   const Scene& scene_;

@@ -13,19 +13,20 @@ double to_double(float x) { return static_cast<double>(x); }
 /// The cone of the end as seen about the line from x2 to x0: which gamma it has, and which azimuths.
 struct Confines {
   double psi = 0, alpha = std::numbers::pi;  ///< between the line and the axis; half of the cone's angle
-  double from = 0, to = std::numbers::pi;    ///< of gamma
+  AngleDistribution::Range gamma{};          ///< kAngle only
 
-  Confines(const PathEnd& x2, const Vec3& x0, Insertion insertion) {
-    if (insertion != Insertion::kAngle || x2.cone.half_angle >= kPi) return;
-    psi = angle_between(x2.cone.axis, x0 - x2.place);
-    alpha = to_double(x2.cone.half_angle);
-    from = std::max(0.0, psi - alpha);
-    to = std::min(std::numbers::pi, psi + alpha);
+  Confines(const PhaseFunction& phase, const PathEnd& x2, const Vec3& x0, Insertion insertion) {
+    if (insertion != Insertion::kAngle) return;
+    if (!x2.cone.is_everything()) {
+      psi = angle_between(x2.cone.axis, x0 - x2.place);
+      alpha = x2.cone.half_angle;
+    }
+    gamma = phase.angles().range(std::max(0.0, psi - alpha), std::min(std::numbers::pi, psi + alpha));
   }
   /// Of azimuths from the axis, to either side.
-  double half_azimuth(double gamma) const {
-    if (gamma <= alpha - psi || gamma >= 2 * std::numbers::pi - psi - alpha) return std::numbers::pi;
-    const double cosine = (std::cos(alpha) - std::cos(gamma) * std::cos(psi)) / (std::sin(gamma) * std::sin(psi));
+  double half_azimuth(double at_gamma) const {
+    if (at_gamma <= alpha - psi || at_gamma >= 2 * std::numbers::pi - psi - alpha) return std::numbers::pi;
+    const double cosine = (std::cos(alpha) - std::cos(at_gamma) * std::cos(psi)) / (std::sin(at_gamma) * std::sin(psi));
     return std::acos(std::clamp(cosine, -1.0, 1.0));
   }
 };
@@ -35,7 +36,7 @@ struct Confines {
 double pdf_of_angles(const PhaseFunction& phase, Insertion insertion, const Confines& confines, double theta) {
   switch (insertion) {
     case Insertion::kAngle:
-      return phase.angles().pdf(confines.from, confines.to, theta);
+      return phase.angles().pdf(confines.gamma, theta);
     case Insertion::kGeometry:
       return 2 / sqr(std::numbers::pi);
     case Insertion::kSolidAngle:
@@ -56,12 +57,12 @@ std::optional<InsertedCollision> insert_collision(const PhaseFunction& phase, co
                                                   Insertion insertion, float u_theta, float u_gamma, float u_phi) {
   const float s = length(x2.place - x0);
   if (!(s > 0)) return std::nullopt;
-  const Confines confines(x2, x0, insertion);
+  const Confines confines(phase, x2, x0, insertion);
   double theta = 0, gamma = 0;
   if (insertion == Insertion::kAngle) {
     const AngleDistribution& angles = phase.angles();
-    if (!(angles.moment(confines.from, confines.to) > 0)) return std::nullopt;
-    gamma = angles.sample(confines.from, confines.to, to_double(u_gamma));
+    if (!(confines.gamma.moment() > 0)) return std::nullopt;
+    gamma = angles.sample(confines.gamma, to_double(u_gamma));
     theta = angles.sample_beyond(gamma, to_double(u_theta));
   } else if (insertion == Insertion::kGeometry) {
     theta = std::numbers::pi * std::sqrt(to_double(u_theta));
@@ -76,8 +77,10 @@ std::optional<InsertedCollision> insert_collision(const PhaseFunction& phase, co
   InsertedCollision result;
   result.theta = static_cast<float>(theta);
   // Law of sines; angles and their sines are exact to the last digits, however small.
-  const double d1 = to_double(s) * std::sin(gamma) / std::sin(theta);
-  const double d2 = to_double(s) * std::sin(beta) / std::sin(theta);
+  const double sin_beta = std::sin(beta), cos_beta = std::cos(beta);
+  const double sin_gamma = std::sin(gamma), cos_gamma = std::cos(gamma);
+  const double scale = to_double(s) / (sin_beta * cos_gamma + cos_beta * sin_gamma);
+  const double d1 = sin_gamma * scale, d2 = sin_beta * scale;
   result.d1 = static_cast<float>(d1);
   result.d2 = static_cast<float>(d2);
   if (!(result.d1 > 0) || !(result.d2 > 0) || !std::isfinite(result.d1 * result.d1) ||
@@ -95,11 +98,8 @@ std::optional<InsertedCollision> insert_collision(const PhaseFunction& phase, co
   }
   const auto phi = static_cast<float>((2 * to_double(u_phi) - 1) * half_azimuth);
   aside = aside * std::cos(phi) + cross(forward, aside) * std::sin(phi);
-  const auto turn = [&](double angle) {
-    return forward * static_cast<float>(std::cos(angle)) + aside * static_cast<float>(std::sin(angle));
-  };
-  result.arrives = turn(beta);
-  result.leaves = turn(-gamma);
+  result.arrives = forward * static_cast<float>(cos_beta) + aside * static_cast<float>(sin_beta);
+  result.leaves = forward * static_cast<float>(cos_gamma) - aside * static_cast<float>(sin_gamma);
   // From the nearer end, whose rounding is smaller.
   result.position = d1 < d2 ? x0 + result.arrives * result.d1 : x2.place - result.leaves * result.d2;
   result.f = phase.eval_angle(result.theta);
@@ -115,8 +115,8 @@ double insertion_pdf_v(const PhaseFunction& phase, const Vec3& x0, const Vec3& x
   if (!(s > 0) || !(d1 > 0) || !(d2 > 0)) return 0;
   const double theta = angle_between(first, second);
   if (!(theta > 0)) return 0;
-  const Confines confines(x2, x0, insertion);
   if (insertion == Insertion::kAngle && !x2.cone.contains(-second)) return 0;
+  const Confines confines(phase, x2, x0, insertion);
   const double half_azimuth = confines.half_azimuth(angle_between(second, line));
   const double pdf = to_volume(pdf_of_angles(phase, insertion, confines, theta), half_azimuth, s, d1, d2);
   return std::isfinite(pdf) ? pdf : 0;

@@ -35,6 +35,9 @@ struct PathEnd {
   Vec3 place;
   bool at_infinity = false;
   Cone cone{};  ///< of the directions from a point in which it gives or takes light
+
+  /// Unit, from a place before it.
+  Vec3 direction_from(const Vec3& p) const { return at_infinity ? place : normalize(place - p); }
 };
 
 /// Where x1 lies as seen from both ends.

@@ -33,8 +33,8 @@ Cone SensorConnector::find_view(const Vec2& u_aperture) const {
   const Vec3 axis = normalize(sum);
   double half_angle = 0;
   for (const Vec3& corner : corners) half_angle = std::max(half_angle, angle_between(axis, corner));
-  constexpr float kRounding = 1e-5f;
-  return {axis, std::min(static_cast<float>(half_angle) + kRounding, kPi)};
+  constexpr double kRounding = 1e-5;
+  return {axis, half_angle + kRounding};
 }
 
 template <class Look>

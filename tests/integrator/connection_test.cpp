@@ -81,7 +81,7 @@ const auto kNames = [](const auto& instance) {
   return name;
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, Connections, ::testing::ValuesIn(scenes()), kNames);
-INSTANTIATE_TEST_SUITE_P(Scenes, SlowConnections, ::testing::ValuesIn(scenes()), kNames);
+INSTANTIATE_TEST_SUITE_P(Slow, SlowConnections, ::testing::ValuesIn(scenes()), kNames);
 
 }  // namespace
 }  // namespace turbid::testing

@@ -25,8 +25,8 @@ constexpr double kTwoPi = 2 * std::numbers::pi;
 struct Pair {
   double gamma, theta;
 };
-Pair draw(const AngleDistribution& angles, Rng& rng, double from = 0, double to = std::numbers::pi) {
-  const double gamma = angles.sample(from, to, static_cast<double>(rng.next_float()));
+Pair draw(const AngleDistribution& angles, Rng& rng) {
+  const double gamma = angles.sample(angles.range(), static_cast<double>(rng.next_float()));
   return {gamma, angles.sample_beyond(gamma, static_cast<double>(rng.next_float()))};
 }
 
@@ -56,7 +56,7 @@ TEST(AngleDistribution, IsSampledAsItSays) {
     const AngleDistribution& angles = phase->angles();
     // What the pairs' density leaves for theta, and theta beyond a given gamma.
     const auto deflections =
-        test_angles(deflection(angles), [&](double theta) { return theta * angles.pdf(0, std::numbers::pi, theta); });
+        test_angles(deflection(angles), [&](double theta) { return theta * angles.pdf(angles.range(), theta); });
     EXPECT_TRUE(passes(deflections, 2 * static_cast<int>(all.size()))) << name << ": " << deflections.report;
     EXPECT_NEAR(deflections.mass, 1, 1e-4) << name;
     constexpr double kGamma = 0.3;
@@ -82,7 +82,7 @@ TEST(AngleDistribution, CanBeConfined) {
   // Isotropic: the density of gamma falls as pi - gamma.
   const IsotropicPhase isotropic;
   const auto gamma = [&](Rng& rng) {
-    return isotropic.angles().sample(0.5, 1.25, static_cast<double>(rng.next_float()));
+    return isotropic.angles().sample(isotropic.angles().range(0.5, 1.25), static_cast<double>(rng.next_float()));
   };
   const auto density = [](double slope) {
     return [slope](double angle) { return slope * (std::numbers::pi - angle); };
@@ -94,7 +94,7 @@ TEST(AngleDistribution, CanBeConfined) {
                           gamma, [](double) { return 1 / 0.75; }, 0.5, 1.25),
                       1))
       << "planted: uniform";
-  EXPECT_NEAR(isotropic.angles().moment(0.5, 1.25), norm / (4 * std::numbers::pi), 1e-7);
+  EXPECT_NEAR(isotropic.angles().range(0.5, 1.25).moment(), norm / (4 * std::numbers::pi), 1e-7);
 }
 
 TEST(AngleDistribution, PlantedErrorsAreFound) {
@@ -140,7 +140,7 @@ TEST(AngleDistribution, MakesTheWeightConstant) {
     for (int i = 0; i < kSamples; ++i) {
       const double theta = draw(angles, rng).theta;
       const double weight = static_cast<double>(phase->eval_angle(static_cast<float>(theta))) /
-                            angles.pdf(0, std::numbers::pi, theta) / angles.moment();
+                            angles.pdf(angles.range(), theta) / angles.moment();
       sum += weight;
       worst = std::max(worst, std::abs(weight - 1));
       off += std::abs(weight - 1) > 1e-3;
@@ -162,8 +162,8 @@ TEST(AngleDistribution, SamplesAreInsideAndPossible) {
     double last = -1;
     for (int i = 0; i <= kSamples; ++i) {
       const double u = std::min(static_cast<double>(i) / kSamples, 1 - 0x1p-24);
-      const double gamma = angles.sample(0, std::numbers::pi, u), theta = angles.sample_beyond(gamma, u);
-      const double pdf = angles.pdf(0, std::numbers::pi, theta);
+      const double gamma = angles.sample(angles.range(), u), theta = angles.sample_beyond(gamma, u);
+      const double pdf = angles.pdf(angles.range(), theta);
       bad += !(gamma >= last && theta >= gamma && theta <= std::numbers::pi && std::isfinite(pdf) && pdf >= 0);
       last = gamma;
     }

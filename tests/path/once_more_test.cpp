@@ -123,10 +123,10 @@ TEST(OnceMore, CanBeConfinedToACone) {
   const HenyeyGreensteinPhase phase(0.4f);
   const Vec3 beside = kTo + Vec3(0.1f, 0.3f, -0.2f), towards = normalize(beside - kTo);
   const Vec3 across = normalize(cross(towards, Vec3(0.2f, 0.3f, 1)));
-  expect_density_of([&](Rng& rng) { return draw_in({across, kPi / 2}, phase, rng); }, beside, 0.5);
-  expect_density_of([&](Rng& rng) { return draw_in({-across, kPi / 2}, phase, rng); }, beside, 0.5);
+  expect_density_of([&](Rng& rng) { return draw_in({across, std::numbers::pi / 2}, phase, rng); }, beside, 0.5);
+  expect_density_of([&](Rng& rng) { return draw_in({-across, std::numbers::pi / 2}, phase, rng); }, beside, 0.5);
   const Vec3 far = kTo + Vec3(0.4f, 1.2f, -0.8f);
-  const Cone narrow{normalize(towards + across * 0.1f), 0.9f};
+  const Cone narrow{normalize(towards + across * 0.1f), 0.9};
   expect_density_of([&](Rng& rng) { return draw_in(narrow, phase, rng); }, far);
   Rng rng(9);
   for (int i = 0; i < 10000; ++i) {
