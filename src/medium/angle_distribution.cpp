@@ -43,10 +43,12 @@ struct Quadratic {
 /// Where an increasing function of w in [0, width] has the value `wanted`: Newton's method, kept in its bracket.
 template <class Function, class Derivative>
 double invert(double width, double wanted, const Function& function, const Derivative& derivative) {
+  const double rise = wanted - function(0), first = derivative(0), last = derivative(width);
+  if (!(rise > 0)) return 0;
   double low = 0, high = width;
-  const double begin = function(0), end = function(width);
-  if (!(end > begin)) return 0;
-  double w = std::clamp((wanted - begin) / (end - begin), 0.0, 1.0) * width;
+  // Nearly right where the derivative is nearly linear: the root of its integral, without cancellation.
+  const double denominator = first + std::sqrt(std::max(0.0, first * first + 2 * (last - first) * rise / width));
+  double w = denominator > 0 ? std::min(2 * rise / denominator, width) : width;
   for (int i = 0; i < 60; ++i) {
     const double off = function(w) - wanted;
     (off < 0 ? low : high) = w;
