@@ -1,5 +1,6 @@
 #include "integrator/path_tracer.h"
 
+#include "integrator/refractive_gatherer.h"
 #include "path/walk.h"
 
 namespace turbid {
@@ -15,11 +16,18 @@ float mis_weight(float pdf, float other_pdf) {
 /// Gathers the light that a walk from the sensor finds: by chance, and by asking at every vertex.
 class LightGatherer : public WalkRecorder {
  public:
-  LightGatherer(const Scene& scene, const PathSettings& settings, Sampler& sampler)
-      : scene_(scene), settings_(settings), sampler_(sampler) {}
+  /// `refraction` may be null.
+  LightGatherer(const Scene& scene, const PathSettings& settings, Sampler& sampler, SampleCounters& counters,
+                const RefractiveScattering* refraction)
+      : scene_(scene), settings_(settings), sampler_(sampler) {
+    if (refraction) refraction_.emplace(*refraction, scene, settings, sampler, counters);
+  }
 
   const PixelSample& result() const { return result_; }
 
+  void before_flight(const Medium& medium, const PathState& state, const Traveller& traveller) {
+    if (refraction_) add(1, refraction_->before_flight(medium, state, traveller));
+  }
   void on_segment(const Ray&, const Medium& medium, const PathState& state, const Traveller::Leg& leg) {
     if (medium.emits() && (state.depth > 0 || !settings_.hide_emitters)) gather(state, leg.emission);
   }
@@ -42,6 +50,7 @@ class LightGatherer : public WalkRecorder {
   }
   void left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState& state,
                       const Traveller& traveller) {
+    if (refraction_) refraction_->left_collision(event, state);
     set_out(event.position, traveller.blind() ? 0 : event.medium.phase().eval(mu), state.throughput);
   }
 
@@ -58,13 +67,14 @@ class LightGatherer : public WalkRecorder {
         &event);
   }
   void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
-                    const Traveller&) {
+                    const Traveller& traveller) {
+    if (refraction_) refraction_->left_surface(event, sample, traveller);
     set_out(event.point.leave(chosen), sample.pdf_w, state.throughput);
   }
 
   void at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
                 const Traveller& traveller) {
-    if (state.depth == 1 && settings_.hide_emitters) return;
+    if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere()) return;
     const SurfaceEmitter& emitter = *object.emitter;
     const Spectrum Le = emitter.Le(point, -traveller.ray().direction);
     if (Le.is_black()) return;
@@ -74,7 +84,7 @@ class LightGatherer : public WalkRecorder {
                   }));
   }
   void at_escape(const PathState& state, const Traveller& traveller) {
-    if (state.depth == 1 && settings_.hide_emitters) return;
+    if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere()) return;
     const Vec3& direction = traveller.ray().direction;
     for (const ChosenEnvironment& environment : scene_.environments()) {
       gather(state, environment.emitter->Le(direction) *
@@ -90,6 +100,8 @@ class LightGatherer : public WalkRecorder {
     passing_prob_ = 1;
     straight_ = throughput;
   }
+
+  bool counted_elsewhere() const { return refraction_ && refraction_->has_counted(); }
 
   /// Of light met by chance; `light_pdf_w`: density of next-event estimation, 1/sr where the direction was chosen.
   template <class Pdf>
@@ -132,6 +144,7 @@ class LightGatherer : public WalkRecorder {
   const PathSettings& settings_;
   Sampler& sampler_;
 
+  std::optional<RefractiveGatherer> refraction_;  ///< empty: paths find everything
   PixelSample result_{Spectrum(0.0f), 0};
   Vec3 last_position_;      ///< where the current direction was chosen ...
   float last_pdf_w_ = 0;    ///< ... and its density, 1/sr; 0 where next-event estimation could not have found its way
@@ -141,9 +154,9 @@ class LightGatherer : public WalkRecorder {
 };
 
 template <bool kSeesMedia>
-PixelSample trace(const Scene& scene, const PathSettings& settings, const SensorRay& camera, Sampler& sampler,
-                  SampleCounters& counters) {
-  LightGatherer gatherer(scene, settings, sampler);
+PixelSample trace(const Scene& scene, const PathSettings& settings, const RefractiveScattering* refraction,
+                  const SensorRay& camera, Sampler& sampler, SampleCounters& counters) {
+  LightGatherer gatherer(scene, settings, sampler, counters, refraction);
   CameraWalk<LightGatherer, kSeesMedia> walk(scene, settings, sampler, counters, gatherer);
   const float alpha = walk.run(camera);
   PixelSample sample = gatherer.result();
@@ -162,8 +175,12 @@ IntegratorSetup make(const Properties& properties) {
 
 PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                         SampleCounters& counters) const {
-  return kind_ == Kind::kVolumes ? trace<true>(scene, settings_, camera, sampler, counters)
-                                 : trace<false>(scene, settings_, camera, sampler, counters);
+  return kind_ == Kind::kVolumes ? trace<true>(scene, settings_, scattering_.get(), camera, sampler, counters)
+                                 : trace<false>(scene, settings_, nullptr, camera, sampler, counters);
+}
+
+void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
+  if (refraction_) scattering_ = std::make_unique<const RefractiveScattering>(scene, *refraction_);
 }
 
 IntegratorPlugin path_row() {
@@ -186,8 +203,53 @@ IntegratorPlugin volpath_row() {
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
-          with_common_parameters({}),
-          make<Kind::kVolumes>};
+          with_common_parameters(
+              {{.name = "single_scattering",
+                .type = ParameterType::kString,
+                .default_text = "path",
+                .meaning = "light that one smooth boundary of triangles bends before it scatters once: found by paths, "
+                           "or as singlescatter finds it",
+                .choices = {"path", "refractive"}}}),
+          [](const Properties& properties) {
+            const bool refractive = properties.string("single_scattering") == "refractive";
+            return IntegratorSetup{std::make_shared<PathTracer>(
+                                       Kind::kVolumes, path_settings(properties),
+                                       refractive ? std::optional<RefractiveSettings>(std::in_place) : std::nullopt),
+                                   false};
+          }};
+}
+
+IntegratorPlugin single_scatter_row() {
+  return {
+      "singlescatter",
+      {},
+      "volpath, with single scattering through smooth boundaries of triangles followed from the light: volume "
+      "caustics of lights of any size",
+      with_common_parameters(
+          {{.name = "method",
+            .type = ParameterType::kString,
+            .default_text = "triangle_intervals",
+            .meaning =
+                "triangle_intervals (where each triangle's light meets the sensor's path), point_sampling (points of "
+                "it), straight_line (the same as if nothing bent light: wrong)",
+            .choices = {"triangle_intervals", "point_sampling", "straight_line"}},
+           {"samples", ParameterType::kInteger, "1", "per triangle's interval, or points per segment of a path",
+            kAtLeastOne},
+           {"midpoint", ParameterType::kBoolean, "false",
+            "samples in the middle of their strata, as published, not anywhere in them"},
+           {"focusing", ParameterType::kBoolean, "true",
+            "false: light falls with the square of the distance, however the boundary focuses it (wrong)"}}),
+      [](const Properties& properties) {
+        RefractiveSettings refraction;
+        const std::string method = properties.string("method");
+        if (method == "point_sampling") refraction.method = RefractiveMethod::kPointSampling;
+        if (method == "straight_line") refraction.method = RefractiveMethod::kStraightLine;
+        refraction.samples = static_cast<int>(properties.integer("samples"));
+        refraction.in_middle = properties.boolean("midpoint");
+        refraction.focusing = properties.boolean("focusing");
+        return IntegratorSetup{std::make_shared<PathTracer>(Kind::kVolumes, path_settings(properties), refraction),
+                               false};
+      }};
 }
 
 }  // namespace turbid

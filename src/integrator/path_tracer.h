@@ -1,6 +1,9 @@
 #pragma once
+#include <optional>
+
 #include "integrator/integrator_plugin.h"
 #include "integrator/sampling_integrator.h"
+#include "refraction/refractive_scattering.h"
 
 namespace turbid {
 
@@ -14,8 +17,11 @@ class PathTracer : public SamplingIntegrator {
     kVolumes,   ///< `volpath`: media scatter; straight passage is free for paths and for shadow rays
   };
 
-  PathTracer(Kind kind, const PathSettings& settings) : kind_(kind), settings_(settings) {}
+  /// `refraction`: how single scattering of light that smooth interfaces bend is found; left out: by paths alone.
+  PathTracer(Kind kind, const PathSettings& settings, const std::optional<RefractiveSettings>& refraction = {})
+      : kind_(kind), settings_(settings), refraction_(refraction) {}
 
+  void prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) override;
   bool sees_media() const override { return kind_ == Kind::kVolumes; }
 
  protected:
@@ -25,11 +31,14 @@ class PathTracer : public SamplingIntegrator {
  private:
   Kind kind_;
   PathSettings settings_;
+  std::optional<RefractiveSettings> refraction_;
+  std::unique_ptr<const RefractiveScattering> scattering_;  ///< made by prepare()
 };
 
-/// Rows of the integrator table: `path`, `direct`, `volpath`.
+/// Rows of the integrator table: `path`, `direct`, `volpath`, `singlescatter`.
 IntegratorPlugin path_row();
 IntegratorPlugin direct_row();
 IntegratorPlugin volpath_row();
+IntegratorPlugin single_scatter_row();
 
 }  // namespace turbid
