@@ -231,8 +231,8 @@ IntegratorPlugin single_scatter_row() {
             .default_text = "triangle_intervals",
             .meaning =
                 "triangle_intervals (where each triangle's light meets the sensor's path), point_sampling (points of "
-                "it), straight_line (the same as if nothing bent light: wrong)",
-            .choices = {"triangle_intervals", "point_sampling", "straight_line"}},
+                "it), straight_line (as if nothing bent light: wrong), none (left out, to see what it adds)",
+            .choices = {"triangle_intervals", "point_sampling", "straight_line", "none"}},
            {"samples", ParameterType::kInteger, "1", "per triangle's interval, or points per segment of a path",
             kAtLeastOne},
            {"midpoint", ParameterType::kBoolean, "false",
@@ -244,6 +244,7 @@ IntegratorPlugin single_scatter_row() {
         const std::string method = properties.string("method");
         if (method == "point_sampling") refraction.method = RefractiveMethod::kPointSampling;
         if (method == "straight_line") refraction.method = RefractiveMethod::kStraightLine;
+        if (method == "none") refraction.method = RefractiveMethod::kNone;
         refraction.samples = static_cast<int>(properties.integer("samples"));
         refraction.in_middle = properties.boolean("midpoint");
         refraction.focusing = properties.boolean("focusing");

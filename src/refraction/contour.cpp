@@ -74,15 +74,32 @@ V2d tangent(const ContourPoint& point, const Line& line, const ContourPiece& pie
 
 ContourFinder::Node ContourFinder::node(const V2d& at) const {
   const Pencil::Ray ray = pencil_->ray(at);
-  return {at, meeting(ray, segment_->line), pencil_->valid(ray)};
+  return {at, meeting(ray, segment_->line), pencil_->valid(ray), ray.cos_refracted};
 }
 
 const std::vector<ContourPiece>& ContourFinder::find(const Pencil& pencil, const Segment& segment) {
   pencil_ = &pencil;
   segment_ = &segment;
   pieces_.clear();
-  search(node({0, 0}), node({1, 0}), node({0, 1}), 1, 0);
+  const Node q0 = node({0, 0}), q1 = node({1, 0}), q2 = node({0, 1});
+  if (!stays_away(q0.value, q1.value, q2.value)) search(q0, q1, q2, 1, 0);
   return pieces_;
+}
+
+bool ContourFinder::stays_away(double h0, double h1, double h2) const {
+  if (signs_differ(h0, h1) || signs_differ(h0, h2)) return false;
+  const auto [low, high] = std::minmax({std::abs(h0), std::abs(h1), std::abs(h2)});
+  if (low < 0.5 * (high - low)) return false;
+  // Second differences of meeting() are about theta (size + theta s): theta is the angle by which refracted rays differ
+  // over the facet, s their length to the line.
+  const Facet& facet = pencil_->facet();
+  const double size2 = facet.p_a.length2() + facet.p_b.length2();
+  const double reach2 = std::max((segment_->line.at(segment_->from) - facet.p0).length2(),
+                                 (segment_->line.at(segment_->to) - facet.p0).length2());
+  const double theta2 =
+      (facet.n_a.length2() + facet.n_b.length2()) / facet.n0.length2() + pencil_->angle2_at_light(size2);
+  constexpr double kCaution = 2;
+  return low > kCaution * (std::sqrt(theta2 * size2) + theta2 * std::sqrt(reach2));
 }
 
 void ContourFinder::search(const Node& q0, const Node& q1, const Node& q2, double scale, int depth) {
@@ -97,8 +114,11 @@ void ContourFinder::search(const Node& q0, const Node& q1, const Node& q2, doubl
   const V2d mean = (gradients[0] + gradients[1] + gradients[2]) * (1.0 / 3);
   const bool one_way = std::all_of(gradients.begin(), gradients.end(),
                                    [&](const V2d& g) { return g.dot(mean) >= kLeastShare * mean.length2(); });
-  const bool simple = one_way && mean.length2() > 0 && !model.may_cross_a_side_twice();
-  if (!simple && depth < kMaxDepth) {
+  const auto [low, high] = std::minmax(
+      {q0.cos_refracted, q1.cos_refracted, q2.cos_refracted, m01.cos_refracted, m12.cos_refracted, m20.cos_refracted});
+  const bool critical = pencil_->eta() < 1 && low < high - low;
+  const bool simple = one_way && mean.length2() > 0 && !model.may_cross_a_side_twice() && !critical;
+  if (!simple && depth < (critical ? kMaxCriticalDepth : kMaxDepth)) {
     search(q0, m01, m20, scale / 2, depth + 1);
     search(m01, q1, m12, scale / 2, depth + 1);
     search(m20, m12, q2, scale / 2, depth + 1);
@@ -124,8 +144,19 @@ void ContourFinder::add_piece(const std::array<Node, 3>& corners, const std::arr
 }
 
 V2d ContourFinder::root_on_side(const Node& a, const Node& middle, const Node& b) const {
+  // The contour's ends only say where to integrate: errors of so much of a side are no matter.
+  constexpr double kTolerance = 1e-7;
+  // The quadratic through the three values, and a step of Newton's with its slope: enough where it is nearly right.
+  const double bend = 2 * (a.value + b.value - 2 * middle.value), linear = b.value - a.value - bend;
+  const double root = std::sqrt(std::max(0.0, linear * linear - 4 * bend * a.value));
+  const double guess = 2 * -a.value / (linear + std::copysign(root, linear));
+  if (guess >= 0 && guess <= 1) {
+    const double step =
+        -meeting(pencil_->ray(a.at + (b.at - a.at) * guess), segment_->line) / (linear + 2 * bend * guess);
+    constexpr double kNearlyRight = 1e-3;
+    if (std::abs(step) < kNearlyRight) return a.at + (b.at - a.at) * std::clamp(guess + step, 0.0, 1.0);
+  }
   // The half with the root, then secants that keep the bracket (the Illinois rule: Dowell & Jarratt 1971).
-  constexpr double kTolerance = 1e-9;  // of the side; the contour's ends only say where to integrate
   const bool first = signs_differ(a.value, middle.value);
   double x0 = first ? 0 : 0.5, x1 = first ? 0.5 : 1;
   double y0 = first ? a.value : middle.value, y1 = first ? middle.value : b.value;
@@ -155,11 +186,14 @@ V2d ContourFinder::root_on_side(const Node& a, const Node& middle, const Node& b
 }
 
 bool ContourFinder::clip(ContourPiece& piece) const {
+  const double from = segment_->from, to = segment_->to;
+  const auto within = [&](const Encounter& e) { return e.on_line >= from && e.on_line <= to && e.on_ray > 0; };
+  if (within(encounter(pencil_->ray(piece.start), segment_->line)) &&
+      within(encounter(pencil_->ray(piece.end), segment_->line)))
+    return true;
   const auto start = point(*pencil_, segment_->line, piece, 0), end = point(*pencil_, segment_->line, piece, 1);
   if (!start || !end) return true;
   const double t0 = start->encounter.on_line, t1 = end->encounter.on_line;
-  const double from = segment_->from, to = segment_->to;
-  if (t0 >= from && t0 <= to && t1 >= from && t1 <= to) return start->encounter.on_ray > 0 || end->encounter.on_ray > 0;
 
   // Only where t goes one way is it known what lies between; elsewhere (a caustic, a ray parallel to the line) the
   // whole piece stays, and points beyond the segment count nothing.

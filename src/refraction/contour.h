@@ -57,10 +57,15 @@ class ContourFinder {
     V2d at;
     double value = 0;  ///< of meeting()
     bool lit = false;  ///< Pencil::valid
+    double cos_refracted = 0;
   };
   static constexpr int kMaxDepth = 8;
+  /// Next to the critical angle, where cos_refracted falls to 0 like a root and its square weighs what comes through.
+  static constexpr int kMaxCriticalDepth = 5;
 
   Node node(const V2d& at) const;
+  /// By values at the corners alone: meeting() is far from 0 for its variation and what that may leave out.
+  bool stays_away(double h0, double h1, double h2) const;
   void search(const Node& q0, const Node& q1, const Node& q2, double scale, int depth);
   void add_piece(const std::array<Node, 3>& corners, const std::array<Node, 3>& middles, const V2d& across);
   /// The root of meeting() on the side between two nodes of different sign.

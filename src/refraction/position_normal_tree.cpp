@@ -10,10 +10,29 @@ namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
 
-/// All points P + s w with P in the ball, s >= 0 and w within an angle of the axis: the part of [from, to] of a line in
-/// there, or a little more. `sine`, `cosine` of the angle, which is below 90 degrees.
-PositionNormalTree::Interval cut_by_shaft(const V3d& center, double radius, const V3d& axis, double sine, double cosine,
-                                          const Line& line, double from, double to) {
+/// Angles below which the series of sine_of and cosine_of are good to 1e-6; larger ones are taken for no bound at all.
+constexpr double kLargeAngle = 1.2;
+/// For angles in [0, kLargeAngle], within 5e-7.
+double sine_of(double x) {
+  const double x2 = x * x;
+  return x * (1 - x2 / 6 * (1 - x2 / 20 * (1 - x2 / 42 * (1 - x2 / 72))));
+}
+double cosine_of(double x) {
+  const double x2 = x * x;
+  return 1 - x2 / 2 * (1 - x2 / 12 * (1 - x2 / 30 * (1 - x2 / 56 * (1 - x2 / 90))));
+}
+
+/// All points P + s w with P in a ball, s >= 0 and w within an angle below 90 degrees of the axis.
+struct Shaft {
+  V3d center;
+  double radius;
+  V3d axis;
+  double sine, cosine;  ///< of the angle
+};
+
+/// The part of [from, to] of a line in a shaft, or a little more.
+PositionNormalTree::Interval cut_by_shaft(const Shaft& shaft, const Line& line, double from, double to) {
+  const auto& [center, radius, axis, sine, cosine] = shaft;
   // With q = V - C, z = q . axis and rho the distance from the axis: rho cosine - z sine <= radius. That function of t
   // is convex; squared: cosine^2 q^2 - z^2 - 2 radius sine z - radius^2 <= 0 where radius + sine z >= 0.
   const V3d q = line.origin - center;
@@ -23,7 +42,7 @@ PositionNormalTree::Interval cut_by_shaft(const V3d& center, double radius, cons
   constexpr double kFlat = 1e-9;
   if (std::abs(a) < kFlat) return std::pair(from, to);
   const double discriminant = b * b - a * c;
-  const auto forwards = [&](double t) { return radius + sine * (z0 + zd * t) >= 0; };
+  const auto forwards = [&, r = radius, turn = sine](double t) { return r + turn * (z0 + zd * t) >= 0; };
   double first = from, last = to;
   if (a > 0) {
     if (discriminant < 0) return std::nullopt;
@@ -56,7 +75,8 @@ PositionNormalTree::Query::Query(const LightPoint& light_point, double index_rat
       eta(index_ratio),
       inverse_eta(1 / index_ratio),
       sign(light_inside ? -1 : 1),
-      most_deviation(kHalfPi - std::asin(std::min(index_ratio, 1 / index_ratio))) {}
+      cos_deviation(std::min(index_ratio, 1 / index_ratio)),
+      sin_deviation(std::sqrt(1 - sqr(cos_deviation))) {}
 
 PositionNormalTree::PositionNormalTree(const TriangleMesh& mesh) : triangles_(mesh.triangle_count()) {
   std::iota(triangles_.begin(), triangles_.end(), 0u);
@@ -133,54 +153,62 @@ PositionNormalTree::Interval PositionNormalTree::reach(const Node& node, const Q
   const double radius = static_cast<double>(node.radius), cone = static_cast<double>(node.angle);
   // All directions to the light lie within `spread` of u.
   V3d u = query.light.place;
-  double spread = 0;
+  double sin_spread = 0;
   if (!query.light.at_infinity) {
     u -= center;
     const double distance = u.length();
     if (distance <= radius) return std::pair(from, to);
     u /= distance;
-    spread = asin_bound(radius / distance);
+    sin_spread = radius / distance;
   }
+  const double spread = asin_bound(sin_spread);
 
   // However it is bent: the spindle (S4 sect. 3.2.4), seen from the light.
-  Interval part = std::pair(from, to);
-  const double loosest = spread + query.most_deviation;
-  if (loosest < kHalfPi) part = cut_by_shaft(center, radius, -u, std::sin(loosest), std::cos(loosest), line, from, to);
-  if (!part || cone + spread >= kHalfPi) return part;
+  const auto loose = [&]() -> Interval {
+    const double cos_spread = std::sqrt(1 - sqr(sin_spread));
+    const double cosine = query.cos_deviation * cos_spread - query.sin_deviation * sin_spread;
+    if (cosine <= 0) return std::pair(from, to);
+    const double sine = query.sin_deviation * cos_spread + query.cos_deviation * sin_spread;
+    return cut_by_shaft({center, radius, -u, sine, cosine}, line, from, to);
+  };
+  const double turn = spread + cone;
+  if (turn >= kLargeAngle) return loose();
 
-  // Bent at one of the normals: angles of incidence up to `most`, at least `least`.
+  // Bent at one of the normals: angles of incidence up to `most`.
   V3d axis = V3d(node.axis) * query.sign;
-  const double cosine = std::clamp(axis.dot(u), -1.0, 1.0), incidence = std::acos(cosine);
-  const double least = incidence - spread - cone;
-  if (least >= kHalfPi) return std::nullopt;
-  double of_axis = incidence, around = cone;
-  if (incidence > kHalfPi) {  // the nearest normal that the light shines on stands for the axis
-    axis = (axis - u * cosine).normalized();
-    around += incidence - kHalfPi;
-    of_axis = kHalfPi;
+  double cosine = axis.dot(u), around = cone;
+  double sine = std::sqrt(std::max(0.0, 1 - sqr(cosine)));
+  const double sin_turn = sine_of(turn), cos_turn = cosine_of(turn);
+  if (cosine <= 0) {
+    if (cosine * cos_turn + sine * sin_turn <= 0) return std::nullopt;  // all normals turn their backs
+    around += asin_bound(-cosine);
+    axis = (axis - u * cosine) / sine;  // the nearest normal that the light shines on stands for the axis
+    cosine = 0;
+    sine = 1;
   }
-  const double most = std::min(incidence + spread + cone, kHalfPi);
+  const double cos_most = std::max(0.0, cosine * cos_turn - sine * sin_turn);
+  const double sin2_most = (1 - sqr(cos_most)) * sqr(query.inverse_eta);
+  if (query.eta < 1) {
+    // At most the critical angle, where light is turned without bound; beyond it none comes through.
+    const bool all_reflected =
+        sin_turn * cosine < sine && (sine * cos_turn - cosine * sin_turn) * query.inverse_eta >= 1;
+    if (all_reflected) return std::nullopt;
+    constexpr double kNearCritical = 0.96;
+    if (sin2_most > kNearCritical) return loose();
+  }
   // Turning the light by an angle turns what is refracted by up to `by_light` times that, turning the normal by up to
   // `by_normal` times: in the plane of incidence d theta_T / d theta_L = cos_L / (eta cos_T) and 1 minus that; across
   // it 1 / eta, and the length of the bend |cos_L / eta - cos_T|. All are extreme at an end of the range of incidence.
-  const double sin_most = std::sin(most) * query.inverse_eta;
-  constexpr double kNearCritical = 0.98;
-  if (query.eta < 1) {
-    if (least > 0 && std::sin(least) * query.inverse_eta >= 1) return std::nullopt;  // totally reflected
-    if (sin_most > kNearCritical) return part;
-  }
-  const double cos_most = std::cos(most), cos_refracted = std::sqrt(1 - sqr(sin_most));
+  const double cos_refracted = std::sqrt(1 - sin2_most);
   const double ratio = cos_most * query.inverse_eta / cos_refracted;
   const double bend = std::abs(cos_most * query.inverse_eta - cos_refracted);
   const double by_light = std::max(query.inverse_eta, ratio);
   const double by_normal = std::max({std::abs(1 - ratio), std::abs(1 - query.inverse_eta), bend});
   const double opening = by_light * spread + by_normal * around;
-  if (opening >= kHalfPi) return part;
-  const double cos_axis = std::cos(of_axis),
-               cos_axis_refracted = std::sqrt(1 - sqr(std::sin(of_axis) * query.inverse_eta));
-  const V3d refracted = axis * (cos_axis * query.inverse_eta - cos_axis_refracted) - u * query.inverse_eta;
-  return cut_by_shaft(center, radius, refracted.normalized(), std::sin(opening), std::cos(opening), line, part->first,
-                      part->second);
+  if (opening >= kLargeAngle) return loose();
+  const double cos_axis_refracted = std::sqrt(1 - sqr(sine * query.inverse_eta));
+  const V3d refracted = axis * (cosine * query.inverse_eta - cos_axis_refracted) - u * query.inverse_eta;
+  return cut_by_shaft({center, radius, refracted, sine_of(opening), cosine_of(opening)}, line, from, to);
 }
 
 void PositionNormalTree::validate(const TriangleMesh& mesh) const {

@@ -53,8 +53,8 @@ class PositionNormalTree {
     Query(const LightPoint& light_point, double index_ratio, bool light_inside);
     LightPoint light;
     double eta, inverse_eta;
-    double sign;            ///< of normals: -1 where the light stands on the inside
-    double most_deviation;  ///< angle by which refraction bends light at most
+    double sign;                          ///< of normals: -1 where the light stands on the inside
+    double cos_deviation, sin_deviation;  ///< of the angle by which refraction bends light at most
   };
 
   static constexpr uint32_t kLeafSize = 3;

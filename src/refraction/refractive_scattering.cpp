@@ -111,7 +111,8 @@ class RefractiveScattering::Gathering {
     const Pencil pencil(facet, light_->point(), eta_);
     const Pencil::Ray ray = pencil.ray(*at);
     const V3d v = segment_.line.at(t);
-    if (!pencil.valid(ray) || !((v - ray.p).dot(ray.direction) > 0)) return;
+    // f is zero, too, where V lies on the light's side in the mirror image of that direction.
+    if (!pencil.valid(ray) || !((v - ray.p).dot(ray.normal) < 0)) return;
     const RefractedPath path{v, ray.p, ray.normal, *at, eta_, light_->point()};
     const double distance = light_->at_infinity() ? 1 : (v - ray.p).length() + ray.distance;
     const double spread = settings_.focusing ? distance_factor(facet, path) / sqr(eta_) : sqr(distance);
@@ -209,6 +210,7 @@ class RefractiveScattering::Gathering {
 
 Spectrum RefractiveScattering::gather(const Ray& flight, const Medium& medium, const Spectrum& throughput,
                                       const Sampler& sampler, SampleCounters& counters) const {
+  if (settings_.method == RefractiveMethod::kNone) return Spectrum(0.0f);
   if (interfaces_.all().empty() || medium.sigma_s().is_black()) return Spectrum(0.0f);
   return Gathering(*this, flight, medium, throughput, sampler, counters).run();
 }

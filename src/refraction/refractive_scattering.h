@@ -10,6 +10,7 @@ enum class RefractiveMethod {
   kTriangleIntervals,  ///< triangle by triangle, only where its light meets the flight (S4)
   kPointSampling,      ///< at points of the flight (Walter et al. 2009)
   kStraightLine,       ///< as if the interface did not bend light, at points of the flight: wrong, cheap and common
+  kNone,               ///< not at all: shows what the others add
 };
 
 struct RefractiveSettings {
