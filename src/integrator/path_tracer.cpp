@@ -74,7 +74,7 @@ class LightGatherer : public WalkRecorder {
 
   void at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
                 const Traveller& traveller) {
-    if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere()) return;
+    if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere(false)) return;
     const SurfaceEmitter& emitter = *object.emitter;
     const Spectrum Le = emitter.Le(point, -traveller.ray().direction);
     if (Le.is_black()) return;
@@ -84,7 +84,7 @@ class LightGatherer : public WalkRecorder {
                   }));
   }
   void at_escape(const PathState& state, const Traveller& traveller) {
-    if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere()) return;
+    if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere(true)) return;
     const Vec3& direction = traveller.ray().direction;
     for (const ChosenEnvironment& environment : scene_.environments()) {
       gather(state, environment.emitter->Le(direction) *
@@ -101,7 +101,7 @@ class LightGatherer : public WalkRecorder {
     straight_ = throughput;
   }
 
-  bool counted_elsewhere() const { return refraction_ && refraction_->has_counted(); }
+  bool counted_elsewhere(bool environment) const { return refraction_ && refraction_->has_counted(environment); }
 
   /// Of light met by chance; `light_pdf_w`: density of next-event estimation, 1/sr where the direction was chosen.
   template <class Pdf>
@@ -235,6 +235,8 @@ IntegratorPlugin single_scatter_row() {
             .choices = {"triangle_intervals", "point_sampling", "straight_line", "none"}},
            {"samples", ParameterType::kInteger, "1", "per triangle's interval, or points per segment of a path",
             kAtLeastOne},
+           {"environments", ParameterType::kBoolean, "false",
+            "follow the light of the sky, too, and do not leave it to paths, which meet it easily"},
            {"midpoint", ParameterType::kBoolean, "false",
             "samples in the middle of their strata, as published, not anywhere in them"},
            {"focusing", ParameterType::kBoolean, "true",
@@ -246,6 +248,7 @@ IntegratorPlugin single_scatter_row() {
         if (method == "straight_line") refraction.method = RefractiveMethod::kStraightLine;
         if (method == "none") refraction.method = RefractiveMethod::kNone;
         refraction.samples = static_cast<int>(properties.integer("samples"));
+        refraction.environments = properties.boolean("environments");
         refraction.in_middle = properties.boolean("midpoint");
         refraction.focusing = properties.boolean("focusing");
         return IntegratorSetup{std::make_shared<PathTracer>(Kind::kVolumes, path_settings(properties), refraction),

@@ -16,7 +16,7 @@ class RefractiveGatherer {
         settings_(settings),
         sampler_(sampler),
         counters_(counters),
-        path_(scattering.interfaces()) {}
+        path_(scattering.counted_path()) {}
 
   /// The radiance of order 1 that the flight brings, times the throughput.
   Spectrum before_flight(const Medium& medium, const PathState& state, const Traveller& traveller) const {
@@ -39,7 +39,7 @@ class RefractiveGatherer {
                        bounds ? event.object.medium_towards(event.point.ng, event.given) : traveller.medium());
   }
   /// The light that the walk has come to is counted by before_flight.
-  bool has_counted() const { return path_.is_counted(); }
+  bool has_counted(bool environment) const { return path_.is_counted(environment); }
 
  private:
   const RefractiveScattering& scattering_;

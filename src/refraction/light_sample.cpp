@@ -5,28 +5,26 @@ namespace {
 constexpr int kMostTries = 1000;
 }
 
-std::optional<LightSample> LightSample::draw(const Scene& scene, Rng& rng) {
-  float u_light = rng.next_float();
+std::optional<LightSample> LightSample::draw(const Scene& scene, const Emitter& emitter, float prob, Rng& rng) {
   const auto next_2d = [&] {
     const float u = rng.next_float();
     return Vec2(u, rng.next_float());
   };
   const Vec2 u_first = next_2d(), u_second = next_2d();
-  const EmitterChoice choice = scene.choose_emitter(u_light);
-  if (!choice.emitter || !choice.emitter->can_be_aimed_at()) return std::nullopt;
+  if (!emitter.can_be_aimed_at()) return std::nullopt;
   LightSample result;
-  result.emitter_ = choice.emitter;
-  result.inverse_prob_ = 1 / choice.prob;
-  if (choice.emitter->is_at_infinity()) {
-    const auto light = choice.emitter->sample_direct(scene.center(), u_first);
+  result.emitter_ = &emitter;
+  result.inverse_prob_ = 1 / prob;
+  if (emitter.is_at_infinity()) {
+    const auto light = emitter.sample_direct(scene.center(), u_first);
     if (!light) return std::nullopt;
     result.point_ = {V3d(light->wi).normalized(), true};
     result.irradiance_ = light->weight;
     return result;
   }
-  auto emission = choice.emitter->sample_emission(u_first, u_second);
+  auto emission = emitter.sample_emission(u_first, u_second);
   // Only its origin counts; a projector gives none where the drawn direction is black.
-  for (int i = 0; i < kMostTries && !emission; ++i) emission = choice.emitter->sample_emission(next_2d(), next_2d());
+  for (int i = 0; i < kMostTries && !emission; ++i) emission = emitter.sample_emission(next_2d(), next_2d());
   if (!emission) return std::nullopt;
   result.emission_ = *emission;
   result.point_ = {V3d(emission->origin), false};

@@ -43,14 +43,13 @@ class RefractiveInterfaces {
   std::map<const Object*, size_t> index_;
 };
 
-/// The light of this emitter is followed through interfaces: of all but beams.
-inline bool shines_through_interfaces(const Emitter& emitter) { return emitter.can_be_aimed_at(); }
-
 /// Recognises, while a walk from the sensor goes on, the paths that RefractiveScattering counts: the first collision V,
 /// then refraction at an interface, then a light; null surfaces anywhere. Whoever adds its light leaves these out.
 class CountedPath {
  public:
-  explicit CountedPath(const RefractiveInterfaces& interfaces) : interfaces_(interfaces) {}
+  /// `environments`: their light counts, too.
+  CountedPath(const RefractiveInterfaces& interfaces, bool environments)
+      : interfaces_(interfaces), environments_(environments) {}
 
   void collided(const Medium& medium, int order) {
     at_collision_ = order == 1;
@@ -62,8 +61,8 @@ class CountedPath {
     refracted_ = at_collision_ && around == medium_ && (sample.flags & lobe::kTransmission) && counts(event);
     at_collision_ = false;
   }
-  /// The light that is met now is counted elsewhere.
-  bool is_counted() const { return refracted_; }
+  /// The light that is met now, on a surface or at infinity, is counted elsewhere.
+  bool is_counted(bool environment) const { return refracted_ && (environments_ || !environment); }
 
  private:
   bool counts(const SurfaceEvent& event) const {
@@ -72,6 +71,7 @@ class CountedPath {
   }
 
   const RefractiveInterfaces& interfaces_;
+  const bool environments_;
   bool at_collision_ = false, refracted_ = false;
   const Medium* medium_ = nullptr;
 };

@@ -5,13 +5,31 @@
 #include "surface/fresnel.h"
 
 namespace turbid {
+namespace {
+/// Up to so many lights are all followed; of more, one that is chosen by its power.
+constexpr size_t kFewLights = 8;
+}  // namespace
+
+RefractiveScattering::RefractiveScattering(const Scene& scene, const RefractiveSettings& settings)
+    : scene_(scene), settings_(settings), interfaces_(scene) {
+  std::vector<float> powers;
+  for (const Emitter* emitter : scene.emitters()) {
+    if (!emitter->can_be_aimed_at() || (emitter->is_environment() && !settings.environments)) continue;
+    lights_.push_back({emitter, 1});
+    powers.push_back(emitter->power().mean());
+  }
+  if (lights_.size() <= kFewLights) return;
+  choice_ = DiscreteDistribution(powers);
+  for (size_t i = 0; i < lights_.size(); ++i) lights_[i].prob = choice_.prob(i);
+}
 
 /// One call of gather().
 class RefractiveScattering::Gathering {
  public:
   Gathering(const RefractiveScattering& whole, const Ray& flight, const Medium& medium, const Spectrum& throughput,
             const Sampler& sampler, SampleCounters& counters)
-      : scene_(whole.scene_),
+      : whole_(whole),
+        scene_(whole.scene_),
         settings_(whole.settings_),
         interfaces_(whole.interfaces_),
         flight_(flight),
@@ -23,21 +41,29 @@ class RefractiveScattering::Gathering {
         segment_{{V3d(flight.origin), V3d(flight.direction).normalized()}, 0, static_cast<double>(flight.t_max)} {}
 
   Spectrum run() {
-    const auto light = LightSample::draw(scene_, rng_);
-    if (!light) return Spectrum(0.0f);
-    light_ = &*light;
-    if (settings_.method == RefractiveMethod::kStraightLine) {
-      for (int i = 0; i < settings_.samples; ++i) look_straight(stratified(i, settings_.samples) * segment_.to);
-      return result_;
+    if (whole_.lights_.size() <= kFewLights) {
+      for (const Light& light : whole_.lights_) follow(light);
+    } else {
+      follow(whole_.lights_[whole_.choice_.sample(rng_.next_float()).index]);
     }
-    for (const RefractiveInterface& one : interfaces_.all())
-      for (const bool light_inside : {false, true})
-        if (one.may_have(&medium_, !light_inside)) follow(one, light_inside);
     counters_.unresolved_triangles += finder_.unresolved();
     return result_;
   }
 
  private:
+  void follow(const Light& of) {
+    const auto light = LightSample::draw(scene_, *of.emitter, of.prob, rng_);
+    if (!light) return;
+    light_ = &*light;
+    if (settings_.method == RefractiveMethod::kStraightLine) {
+      for (int i = 0; i < settings_.samples; ++i) look_straight(stratified(i, settings_.samples) * segment_.to);
+      return;
+    }
+    for (const RefractiveInterface& one : interfaces_.all())
+      for (const bool light_inside : {false, true})
+        if (one.may_have(&medium_, !light_inside)) follow(one, light_inside);
+  }
+
   double stratified(int i, int count) { return (i + (settings_.in_middle ? 0.5 : rng_.next_double())) / count; }
 
   void follow(const RefractiveInterface& one, bool light_inside) {
@@ -189,6 +215,7 @@ class RefractiveScattering::Gathering {
     if (!value.is_black()) result_ += value * let_through(p, v, -to_light, to_light);
   }
 
+  const RefractiveScattering& whole_;
   const Scene& scene_;
   const RefractiveSettings& settings_;
   const RefractiveInterfaces& interfaces_;

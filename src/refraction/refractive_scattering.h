@@ -15,9 +15,10 @@ enum class RefractiveMethod {
 
 struct RefractiveSettings {
   RefractiveMethod method = RefractiveMethod::kTriangleIntervals;
-  int samples = 1;         ///< per interval of a triangle, or per flight
-  bool in_middle = false;  ///< of the strata (S4 eq. 18), not anywhere in them
-  bool focusing = true;    ///< false: D is taken for the square of the distance (S4 Fig. 11)
+  int samples = 1;            ///< per interval of a triangle, or per flight
+  bool in_middle = false;     ///< of the strata (S4 eq. 18), not anywhere in them
+  bool environments = false;  ///< their light is followed, too; else paths find it, which meet the sky easily
+  bool focusing = true;       ///< false: D is taken for the square of the distance (S4 Fig. 11)
 };
 
 /// Single scattering of light that one smooth interface bends on its way into a medium (S4, NUMERICS 4): paths light -
@@ -31,10 +32,10 @@ struct RefractiveSettings {
 /// dsigma dtau over the area across which it passes the flight.
 class RefractiveScattering {
  public:
-  RefractiveScattering(const Scene& scene, const RefractiveSettings& settings)
-      : scene_(scene), settings_(settings), interfaces_(scene) {}
+  RefractiveScattering(const Scene& scene, const RefractiveSettings& settings);
 
-  const RefractiveInterfaces& interfaces() const { return interfaces_; }
+  /// Recognises on a path from the sensor what gather() counts.
+  CountedPath counted_path() const { return {interfaces_, settings_.environments}; }
 
   /// An estimate of the radiance that a single collision on the flight scatters to its origin. `flight`: through
   /// `medium`, up to the next surface. `throughput` as for pass_straight. Random numbers come from Sampler::aside.
@@ -47,6 +48,13 @@ class RefractiveScattering {
   const Scene& scene_;
   RefractiveSettings settings_;
   RefractiveInterfaces interfaces_;
+  /// Whose light is followed, with the probability of each; few lights are all asked.
+  struct Light {
+    const Emitter* emitter;
+    float prob;
+  };
+  std::vector<Light> lights_;
+  DiscreteDistribution choice_;  ///< among lights_, where they are many
 };
 
 }  // namespace turbid

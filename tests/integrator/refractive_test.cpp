@@ -103,7 +103,8 @@ class Rendering {
 PassStatistics added_light(const std::string& xml, const std::string& integrator,
                            const std::vector<std::pair<std::string, std::string>>& settings, uint32_t samples,
                            uint64_t seed, int block, double brightness = 1) {
-  Rendering whole(xml, integrator, settings), rest(xml, "singlescatter", {{"method", "none"}});
+  Rendering whole(xml, integrator, settings),
+      rest(xml, "singlescatter", {{"method", "none"}, {"environments", "true"}});
   PassStatistics result({16, 16}, block);
   for (uint32_t pass = 0; pass < kPasses; ++pass) {
     Film film = whole.pass(seed, pass, samples);
@@ -148,15 +149,15 @@ Verdict compare_light(const PassStatistics& reference, const PassStatistics& oth
 void expect_agreement(const Comparison& scene, uint32_t volpath_samples, double effort, double largest_error) {
   const PassStatistics by_chance = added_light(scene.xml, "volpath", {}, volpath_samples, 1, 8);
   const auto samples = static_cast<uint32_t>(effort * scene.samples);
-  const PassStatistics followed = added_light(scene.xml, "singlescatter", {}, samples, 2, 8);
+  const PassStatistics followed = added_light(scene.xml, "singlescatter", {{"environments", "true"}}, samples, 2, 8);
   const Verdict verdict = compare_light(by_chance, followed);
   std::printf("%-28s ratio %.4f +- %.4f, worst |z| %.2f of %zu blocks\n", scene.name.c_str(), verdict.ratio,
               verdict.error, verdict.blocks.worst_z, by_chance.block_count());
   EXPECT_TRUE(verdict.accepted(static_cast<double>(comparisons(1).size())));
   EXPECT_LT(verdict.error, largest_error) << "too noisy to say anything";
   // The harness sees an error of a few times what it resolves.
-  const Verdict planted =
-      compare_light(by_chance, added_light(scene.xml, "singlescatter", {}, samples, 2, 8, 1 + 6 * largest_error));
+  const Verdict planted = compare_light(by_chance, added_light(scene.xml, "singlescatter", {{"environments", "true"}},
+                                                               samples, 2, 8, 1 + 6 * largest_error));
   EXPECT_FALSE(planted.accepted(static_cast<double>(comparisons(1).size())));
 }
 

@@ -61,6 +61,8 @@ void count_paths(const TriangleMesh& mesh, const PositionNormalTree& tree, const
   ContourFinder finder;
   for (uint32_t triangle = 0; triangle < mesh.triangle_count(); ++triangle) {
     const Facet outward = facet_of(mesh, triangle), facet = setting.light_inside ? outward.flipped() : outward;
+    const V3d to_light = light.at_infinity ? light.place : light.place - facet.p0;
+    if (!(to_light.dot(facet.ng) > 0) || !((segment.line.at(t) - facet.p0).dot(facet.ng) < 0)) continue;
     const HalfVector function(facet, light, setting.eta, segment.line);
     const Pencil pencil(facet, light, setting.eta);
     std::vector<V2d> roots;
