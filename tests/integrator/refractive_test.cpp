@@ -3,6 +3,8 @@
 // same.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "integrator/agreement.h"
 #include "integrator/suite.h"
 #include "testing/temporary_folder.h"
@@ -165,6 +167,73 @@ class RefractiveScatteringAgrees : public ::testing::TestWithParam<Comparison> {
 TEST_P(RefractiveScatteringAgrees, WithVolpath) { expect_agreement(GetParam(), GetParam().volpath_samples, 1, 0.09); }
 INSTANTIATE_TEST_SUITE_P(Scenes, RefractiveScatteringAgrees, ::testing::ValuesIn(comparisons(0.8f)),
                          [](const auto& instance) { return instance.param.name; });
+
+/// Means of the light of each order, over the whole picture.
+std::array<ImageMean, kOrderClasses> by_order(const std::string& xml, const std::string& integrator,
+                                              const std::vector<std::pair<std::string, std::string>>& settings) {
+  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
+  const IntegratorSetup setup =
+      make_integrator(replace_integrator(loaded.integrator, integrator, settings).description, loaded.document.get());
+  const Scene scene(std::move(loaded.parts));
+  std::vector<std::string> names;
+  std::vector<OrderLayer> layers;
+  for (int order = 0; order < kOrderClasses; ++order) {
+    layers.push_back({order, order, names.size()});
+    for (const char* channel : {".R", ".G", ".B"}) names.push_back("order" + std::to_string(order) + channel);
+  }
+  EXPECT_TRUE(setup.integrator->split_orders(layers));
+  const StopFlag stop;
+  setup.integrator->prepare(scene, 1, stop);
+  Film film({16, 16}, names);
+  setup.integrator->render_pass(scene, {1, 0, 32}, film, stop);
+  std::array<ImageMean, kOrderClasses> result;
+  for (const OrderLayer& layer : layers)
+    for (size_t i = 0; i < film.pixel_count(); ++i)
+      for (size_t c = 0; c < kChannels; ++c)
+        result[static_cast<size_t>(layer.min_order)].mean[c] += film.layers(i)[layer.channel + c];
+  return result;
+}
+
+TEST(RefractiveScattering, ChangesNothingButOrderOne) {
+  const std::string xml = comparisons(0.8f)[1].xml;
+  const auto plain = by_order(xml, "volpath", {}), followed = by_order(xml, "singlescatter", {}),
+             switched = by_order(xml, "volpath", {{"single_scattering", "refractive"}});
+  for (const size_t order : {0, 2, 3}) {
+    EXPECT_GT(plain[order].grey(), 0);
+    for (int c = 0; c < kChannels; ++c) EXPECT_EQ(plain[order].mean[c], followed[order].mean[c]) << order;
+  }
+  EXPECT_NE(plain[1].grey(), followed[1].grey());
+  for (size_t order = 0; order < kOrderClasses; ++order) EXPECT_EQ(followed[order].grey(), switched[order].grey());
+}
+
+TEST(RefractiveScattering, KeepsToTheOrdersAndDepthsThatAreAskedFor) {
+  const auto light = [](const std::string& settings) {
+    const std::string above = R"(<emitter type="point"><point name="position" value="0.8, 0.9, 3"/></emitter>)";
+    const std::string xml = scene(above + bumpy(kGlass + clear()), settings);
+    return by_order(xml, "singlescatter", {})[1].grey();
+  };
+  EXPECT_GT(light(""), 0);
+  EXPECT_EQ(light(integer("max_scattering", 0)), 0);
+  EXPECT_EQ(light(integer("min_scattering", 2)), 0);
+  // Into the glass, to V, to P, to the light: four edges.
+  EXPECT_GT(light(integer("max_depth", 4)), 0);
+  EXPECT_EQ(light(integer("max_depth", 3)), 0);
+}
+
+TEST(RefractiveScattering, TakesMeshesWithHolesAndTurnedTriangles) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("broken.obj");
+  std::ofstream(file) << "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 5 4\n"
+                         "f 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\n";
+  const std::string broken = "<shape type=\"obj\"><string name=\"filename\" value=\"" + file +
+                             "\"/><transform name=\"to_world\"><translate z=\"1\"/></transform>" + kGlass + clear() +
+                             "</shape>";
+  const Film film = render_text(scene(kPoint + kFloor + broken, integer("max_depth", 6)), 4);
+  EXPECT_GT(mean_of(film).grey(), 0);
+  Rendering rendering(scene(kPoint + kFloor + broken, integer("max_depth", 6)), "singlescatter", {});
+  rendering.pass(1, 0, 8);
+  EXPECT_EQ(rendering.counters()["dropped_samples"], 0u);
+}
 
 /// At length, with a smaller lamp.
 class SlowRefractiveScatteringAgrees : public ::testing::TestWithParam<Comparison> {};
