@@ -23,6 +23,8 @@ class PathTracer : public SamplingIntegrator {
 
   void prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) override;
   bool sees_media() const override { return kind_ == Kind::kVolumes; }
+  /// With refraction: delta lights through smooth meshes, as far as single scattering goes.
+  PathSupport support() const override { return {.specular_at_delta_light = refraction_.has_value()}; }
 
  protected:
   PixelSample sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
