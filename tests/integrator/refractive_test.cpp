@@ -70,7 +70,7 @@ std::vector<Comparison> comparisons(float lamp_radius) {
        128},
       {"camera_in_bumpy_sphere", scene(far + kFloor + bumpy(murky), depth, camera_inside()), 4},
       {"lamp_in_glass_in_fog", scene(near + kFloor + bumpy(foggy) + around, depth), 16, 256},
-      {"lamp_in_murky_glass_in_fog", scene(near + kFloor + bumpy(murky + fog("exterior")) + around, depth), 16, 256},
+      {"lamp_in_murky_glass_in_fog", scene(near + kFloor + bumpy(murky + fog("exterior")) + around, depth), 16, 768},
       {"camera_and_lamp_in_glass",
        scene(near + kFloor + bumpy(murky + fog("exterior")) + around, depth, camera_inside()), 16, 128},
       {"sky", scene(kSky + kFloor + bumpy(murky), depth), 8}};
