@@ -52,6 +52,7 @@ struct Comparison {
   std::string name, xml;
   uint32_t samples;               ///< of refractive scattering, per pass
   uint32_t volpath_samples = 64;  ///< where a lamp of radius 0.8 is to be met often enough
+  double largest_error = 0.09;    ///< of the ratio in the quick test; what it must resolve to say anything
 
   friend void PrintTo(const Comparison& comparison, std::ostream* out) { *out << comparison.name; }
 };
@@ -62,18 +63,18 @@ std::vector<Comparison> comparisons(float lamp_radius) {
   const auto fog = [](const char* role) { return medium(role, "0.1, 0.12, 0.15", "0.9, 0.9, 0.9", 0.3f); };
   const std::string around = ball("0, 0, 0", 9, R"(<bsdf type="null"/>)" + fog("interior"));
   const std::string murky = kGlass + clear(), foggy = kGlass + fog("exterior");
-  return {
-      {"sphere", scene(far + kFloor + sphere(murky), depth), 4},
-      {"bumpy_sphere", scene(far + kFloor + bumpy(murky), depth), 4},
-      {"slab", scene(far + kFloor + slab(murky), depth), 16},
-      {"coarse_glass", scene(far + kFloor + octahedron("<scale value=\"0.9\"/><translate z=\"1\"/>", murky), depth), 8,
-       128},
-      {"camera_in_bumpy_sphere", scene(far + kFloor + bumpy(murky), depth, camera_inside()), 4},
-      {"lamp_in_glass_in_fog", scene(near + kFloor + bumpy(foggy) + around, depth), 16, 256},
-      {"lamp_in_murky_glass_in_fog", scene(near + kFloor + bumpy(murky + fog("exterior")) + around, depth), 16, 768},
-      {"camera_and_lamp_in_glass",
-       scene(near + kFloor + bumpy(murky + fog("exterior")) + around, depth, camera_inside()), 16, 128},
-      {"sky", scene(kSky + kFloor + bumpy(murky), depth), 8}};
+  return {{"sphere", scene(far + kFloor + sphere(murky), depth), 4},
+          {"bumpy_sphere", scene(far + kFloor + bumpy(murky), depth), 4},
+          {"slab", scene(far + kFloor + slab(murky), depth), 16},
+          {"coarse_glass", scene(far + kFloor + octahedron("<scale value=\"0.9\"/><translate z=\"1\"/>", murky), depth),
+           8, 128},
+          {"camera_in_bumpy_sphere", scene(far + kFloor + bumpy(murky), depth, camera_inside()), 4},
+          {"lamp_in_glass_in_fog", scene(near + kFloor + bumpy(foggy) + around, depth), 16, 256},
+          {"lamp_in_murky_glass_in_fog", scene(near + kFloor + bumpy(murky + fog("exterior")) + around, depth), 16, 256,
+           0.15},
+          {"camera_and_lamp_in_glass",
+           scene(near + kFloor + bumpy(murky + fog("exterior")) + around, depth, camera_inside()), 16, 128},
+          {"sky", scene(kSky + kFloor + bumpy(murky), depth), 8}};
 }
 
 /// A scene with one of its integrators, whose passes are rendered one by one.
@@ -164,7 +165,9 @@ void expect_agreement(const Comparison& scene, uint32_t volpath_samples, double 
 }
 
 class RefractiveScatteringAgrees : public ::testing::TestWithParam<Comparison> {};
-TEST_P(RefractiveScatteringAgrees, WithVolpath) { expect_agreement(GetParam(), GetParam().volpath_samples, 1, 0.09); }
+TEST_P(RefractiveScatteringAgrees, WithVolpath) {
+  expect_agreement(GetParam(), GetParam().volpath_samples, 1, GetParam().largest_error);
+}
 INSTANTIATE_TEST_SUITE_P(Scenes, RefractiveScatteringAgrees, ::testing::ValuesIn(comparisons(0.8f)),
                          [](const auto& instance) { return instance.param.name; });
 
@@ -238,7 +241,7 @@ TEST(RefractiveScattering, TakesMeshesWithHolesAndTurnedTriangles) {
 /// At length, with a smaller lamp.
 class SlowRefractiveScatteringAgrees : public ::testing::TestWithParam<Comparison> {};
 TEST_P(SlowRefractiveScatteringAgrees, WithVolpath) {
-  expect_agreement(GetParam(), 64 * GetParam().volpath_samples, 6, 0.03);
+  expect_agreement(GetParam(), 64 * GetParam().volpath_samples, 6, GetParam().largest_error / 3);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, SlowRefractiveScatteringAgrees, ::testing::ValuesIn(comparisons(0.4f)),
                          [](const auto& instance) { return instance.param.name; });
