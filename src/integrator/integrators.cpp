@@ -32,7 +32,8 @@ IntegratorPlugin moment_row() {
 IntegratorTable make_table() {
   return IntegratorTable(
       Category::kIntegrator,
-      {path_row(), direct_row(), volpath_row(), particle_tracer_row(), bdpt_row(), moment_row(), aov_row()},
+      {path_row(), direct_row(), volpath_row(), single_scatter_row(), particle_tracer_row(), bdpt_row(), moment_row(),
+       aov_row()},
       {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective"},
       advice_for_old_names());
 }

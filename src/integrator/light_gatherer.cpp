@@ -63,6 +63,7 @@ void LightGatherer::at_collision(const CollisionEvent& event, const PathState& s
 
 void LightGatherer::left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState& state,
                                    const Traveller& traveller) {
+  if (refraction_) refraction_->left_collision(event, state);
   const float f = event.medium.phase().eval(mu);
   set_out(event.position, traveller.blind() ? 0 : f, state.throughput);
   if (!maker_.active()) return;
@@ -88,6 +89,7 @@ void LightGatherer::at_surface(const SurfaceEvent& event, const PathState& state
 
 void LightGatherer::left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen,
                                  const PathState& state, const Traveller& traveller) {
+  if (refraction_) refraction_->left_surface(event, sample, traveller);
   set_out(event.point.leave(chosen), sample.pdf_w, state.throughput);
   if (!maker_.active()) return;
   last_arrival_ = {};
@@ -97,7 +99,7 @@ void LightGatherer::left_surface(const SurfaceEvent& event, const BsdfSample& sa
 
 void LightGatherer::at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
                              const Traveller& traveller) {
-  if (state.depth == 1 && settings_.hide_emitters) return;
+  if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere(false)) return;
   const SurfaceEmitter& emitter = *object.emitter;
   const Vec3& direction = traveller.ray().direction;
   const Spectrum Le = emitter.Le(point, -direction);
@@ -113,7 +115,7 @@ void LightGatherer::at_light(const Hit& hit, const Object& object, const Surface
 }
 
 void LightGatherer::at_escape(const PathState& state, const Traveller& traveller) {
-  if (state.depth == 1 && settings_.hide_emitters) return;
+  if ((state.depth == 1 && settings_.hide_emitters) || counted_elsewhere(true)) return;
   const Vec3& direction = traveller.ray().direction;
   for (const ChosenEnvironment& environment : scene_.environments()) {
     const Spectrum Le = environment.emitter->Le(direction);

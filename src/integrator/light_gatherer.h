@@ -1,5 +1,6 @@
 #pragma once
 #include "integrator/camera_sample.h"
+#include "integrator/refractive_gatherer.h"
 #include "path/connection_sampler.h"
 #include "path/walk.h"
 
@@ -14,12 +15,18 @@ namespace turbid {
 /// weighted together against those others, the density of x2 in solid angle at x1.
 class LightGatherer : public WalkRecorder {
  public:
+  /// `refraction` may be null.
   LightGatherer(const Scene& scene, const PathSettings& settings, const ConnectionSettings& connection,
-                Sampler& sampler, SampleCounters& counters)
-      : scene_(scene), settings_(settings), maker_(scene, connection), sampler_(sampler), counters_(counters) {}
+                const RefractiveScattering* refraction, Sampler& sampler, SampleCounters& counters)
+      : scene_(scene), settings_(settings), maker_(scene, connection), sampler_(sampler), counters_(counters) {
+    if (refraction) refraction_.emplace(*refraction, scene, settings, sampler, counters);
+  }
 
   const PixelSample& result() const { return result_; }
 
+  void before_flight(const Medium& medium, const PathState& state, const Traveller& traveller) {
+    if (refraction_) add(1, refraction_->before_flight(medium, state, traveller));
+  }
   void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg) {
     if (maker_.active() && leg.collides) proxy_ *= medium.proxy_transmittance(way);
     if (medium.emits() && (state.depth > 0 || !settings_.hide_emitters)) gather(state, leg.emission);
@@ -62,6 +69,8 @@ class LightGatherer : public WalkRecorder {
     straight_ = throughput;
   }
 
+  bool counted_elsewhere(bool environment) const { return refraction_ && refraction_->has_counted(environment); }
+
   /// Of light met by chance at the end of the edge: its weight against next-event estimation, times share_of_walk.
   float hit_weight(const EmitterChoice& choice, const DirectLightSample& light) const;
   /// The share of next-event estimation and of light met by chance in a path whose last edges are `arrival` and one to
@@ -100,6 +109,7 @@ class LightGatherer : public WalkRecorder {
   Sampler& sampler_;
   SampleCounters& counters_;
 
+  std::optional<RefractiveGatherer> refraction_;  ///< empty: paths find everything
   PixelSample result_{Spectrum(0.0f), 0};
   Vec3 last_position_;      ///< where the current direction was chosen ...
   float last_pdf_w_ = 0;    ///< ... and its density, 1/sr; 0 where next-event estimation could not have found its way

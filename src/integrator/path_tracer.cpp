@@ -7,8 +7,9 @@ namespace {
 
 template <bool kSeesMedia>
 PixelSample trace(const Scene& scene, const PathSettings& settings, const ConnectionSettings& connection,
-                  const SensorRay& camera, Sampler& sampler, SampleCounters& counters) {
-  LightGatherer gatherer(scene, settings, connection, sampler, counters);
+                  const RefractiveScattering* refraction, const SensorRay& camera, Sampler& sampler,
+                  SampleCounters& counters) {
+  LightGatherer gatherer(scene, settings, connection, refraction, sampler, counters);
   CameraWalk<LightGatherer, kSeesMedia> walk(scene, settings, sampler, counters, gatherer);
   const float alpha = walk.run(camera);
   PixelSample sample = gatherer.result();
@@ -26,8 +27,13 @@ IntegratorSetup make_surfaces(const Properties& properties) {
 
 PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                         SampleCounters& counters) const {
-  return kind_ == Kind::kVolumes ? trace<true>(scene, settings_, connection_, camera, sampler, counters)
-                                 : trace<false>(scene, settings_, connection_, camera, sampler, counters);
+  return kind_ == Kind::kVolumes
+             ? trace<true>(scene, settings_, connection_, scattering_.get(), camera, sampler, counters)
+             : trace<false>(scene, settings_, connection_, nullptr, camera, sampler, counters);
+}
+
+void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
+  if (refraction_) scattering_ = std::make_unique<const RefractiveScattering>(scene, *refraction_);
 }
 
 IntegratorPlugin path_row() {
@@ -47,15 +53,64 @@ IntegratorPlugin direct_row() {
 }
 
 IntegratorPlugin volpath_row() {
+  std::vector<Parameter> own = connection_parameters("nee", "light");
+  own.push_back({.name = "single_scattering",
+                 .type = ParameterType::kString,
+                 .default_text = "path",
+                 .meaning =
+                     "light that one smooth boundary of triangles bends before it scatters once: found by paths, "
+                     "or as singlescatter finds it",
+                 .choices = {"path", "refractive"}});
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
-          with_common_parameters(connection_parameters("nee", "light")),
+          with_common_parameters(own),
           [](const Properties& properties) {
-            return IntegratorSetup{std::make_shared<PathTracer>(Kind::kVolumes, path_settings(properties),
-                                                                connection_settings(properties, "nee")),
-                                   false};
+            const bool refractive = properties.string("single_scattering") == "refractive";
+            return IntegratorSetup{
+                std::make_shared<PathTracer>(
+                    Kind::kVolumes, path_settings(properties), connection_settings(properties, "nee"),
+                    refractive ? std::optional<RefractiveSettings>(std::in_place) : std::nullopt),
+                false};
           }};
+}
+
+IntegratorPlugin single_scatter_row() {
+  return {
+      "singlescatter",
+      {},
+      "volpath, with single scattering through smooth boundaries of triangles followed from the light: volume "
+      "caustics of lights of any size",
+      with_common_parameters(
+          {{.name = "method",
+            .type = ParameterType::kString,
+            .default_text = "triangle_intervals",
+            .meaning =
+                "triangle_intervals (where each triangle's light meets the sensor's path), point_sampling (points of "
+                "it), straight_line (as if nothing bent light: wrong), none (left out, to see what it adds)",
+            .choices = {"triangle_intervals", "point_sampling", "straight_line", "none"}},
+           {"samples", ParameterType::kInteger, "1", "per triangle's interval, or points per segment of a path",
+            kAtLeastOne},
+           {"environments", ParameterType::kBoolean, "false",
+            "follow the light of the sky, too, and do not leave it to paths, which meet it easily"},
+           {"midpoint", ParameterType::kBoolean, "false",
+            "samples in the middle of their strata, as published, not anywhere in them"},
+           {"focusing", ParameterType::kBoolean, "true",
+            "false: light falls with the square of the distance, however the boundary focuses it (wrong)"}}),
+      [](const Properties& properties) {
+        RefractiveSettings refraction;
+        const std::string method = properties.string("method");
+        if (method == "point_sampling") refraction.method = RefractiveMethod::kPointSampling;
+        if (method == "straight_line") refraction.method = RefractiveMethod::kStraightLine;
+        if (method == "none") refraction.method = RefractiveMethod::kNone;
+        refraction.samples = static_cast<int>(properties.integer("samples"));
+        refraction.environments = properties.boolean("environments");
+        refraction.in_middle = properties.boolean("midpoint");
+        refraction.focusing = properties.boolean("focusing");
+        return IntegratorSetup{
+            std::make_shared<PathTracer>(Kind::kVolumes, path_settings(properties), ConnectionSettings{}, refraction),
+            false};
+      }};
 }
 
 }  // namespace turbid

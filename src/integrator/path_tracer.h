@@ -1,6 +1,9 @@
 #pragma once
+#include <optional>
+
 #include "integrator/integrator_plugin.h"
 #include "integrator/sampling_integrator.h"
+#include "refraction/refractive_scattering.h"
 
 namespace turbid {
 
@@ -14,11 +17,16 @@ class PathTracer : public SamplingIntegrator {
     kVolumes,   ///< `volpath`: media scatter; straight passage is free for paths and for shadow rays
   };
 
-  /// `connection`: how collisions next to a light are found; kVolumes only.
-  PathTracer(Kind kind, const PathSettings& settings, const ConnectionSettings& connection = {})
-      : kind_(kind), settings_(settings), connection_(connection) {}
+  /// kVolumes only: how collisions next to a light are found; how single scattering of light that smooth interfaces
+  /// bend is (left out: by paths alone).
+  PathTracer(Kind kind, const PathSettings& settings, const ConnectionSettings& connection = {},
+             const std::optional<RefractiveSettings>& refraction = {})
+      : kind_(kind), settings_(settings), connection_(connection), refraction_(refraction) {}
 
+  void prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) override;
   bool sees_media() const override { return kind_ == Kind::kVolumes; }
+  /// With refraction: delta lights through smooth meshes, as far as single scattering goes.
+  PathSupport support() const override { return {.specular_at_delta_light = refraction_.has_value()}; }
 
  protected:
   PixelSample sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
@@ -28,11 +36,14 @@ class PathTracer : public SamplingIntegrator {
   Kind kind_;
   PathSettings settings_;
   ConnectionSettings connection_;
+  std::optional<RefractiveSettings> refraction_;
+  std::unique_ptr<const RefractiveScattering> scattering_;  ///< made by prepare()
 };
 
-/// Rows of the integrator table: `path`, `direct`, `volpath`.
+/// Rows of the integrator table: `path`, `direct`, `volpath`, `singlescatter`.
 IntegratorPlugin path_row();
 IntegratorPlugin direct_row();
 IntegratorPlugin volpath_row();
+IntegratorPlugin single_scatter_row();
 
 }  // namespace turbid

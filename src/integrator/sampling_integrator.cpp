@@ -17,9 +17,14 @@ bool is_valid(const Spectrum& radiance) { return radiance.is_finite() && radianc
 
 Counters SamplingIntegrator::counters() const {
   const std::lock_guard lock(mutex_);
-  return {{"camera_samples", totals_.camera_samples}, {"rays", totals_.rays},
-          {"shadow_rays", totals_.shadow_rays},       {"collisions", totals_.collisions},
-          {"free_flights", totals_.free_flights},     {"dropped_samples", totals_.dropped_samples}};
+  Counters result = {{"camera_samples", totals_.camera_samples}, {"rays", totals_.rays},
+                     {"shadow_rays", totals_.shadow_rays},       {"collisions", totals_.collisions},
+                     {"free_flights", totals_.free_flights},     {"dropped_samples", totals_.dropped_samples}};
+  if (totals_.refractive_paths + totals_.unresolved_triangles > 0) {
+    result["refractive_paths"] = totals_.refractive_paths;
+    result["unresolved_triangles"] = totals_.unresolved_triangles;
+  }
+  return result;
 }
 
 bool SamplingIntegrator::split_orders(const std::vector<OrderLayer>& layers) {

@@ -13,6 +13,8 @@ struct WalkRecorder {
   /// A path is about to leave its light, or the sensor (at the near plane).
   void at_emitter(const Emission&, const Traveller&) {}
   void at_sensor(const PathState&, const Traveller&) {}
+  /// A flight through a medium is about to begin along the traveller's ray, wherever it will end.
+  void before_flight(const Medium&, const PathState&, const Traveller&) {}
   /// A straight piece of flight in a medium, from the ray's origin to its t_max; the state is that at its start.
   void on_segment(const Ray&, const Medium&, const PathState&, const Traveller::Leg&) {}
   /// The walk went straight on: through a medium (Medium::proxy_transmittance of the way), or through a surface
@@ -118,6 +120,7 @@ class Walk {
   bool fly(Hit& hit) {
     const Ray start = traveller_.ray();
     const Medium& medium = *traveller_.medium();
+    recorder_.before_flight(medium, state(), traveller_);
     const Traveller::Leg leg = traveller_.fly(throughput_);
     recorder_.on_segment({start.origin, start.direction, leg.length}, medium, state(), leg);
     throughput_ *= leg.weight;
