@@ -8,9 +8,14 @@ namespace turbid {
 namespace {
 
 constexpr uint64_t kPilotStream = 0x71;
-constexpr uint32_t kImages = 8;
 constexpr double kHigh = 1, kLow = 0.1;
 constexpr double kLeastQ = 1.0 / 256;
+
+/// Enough samples in all to see the difference of the variances, and of each pixel to see a variance.
+uint32_t image_count(const Scene& scene) {
+  constexpr size_t kSamples = size_t{1} << 17;
+  return static_cast<uint32_t>(std::clamp<size_t>(kSamples / pixel_count(scene.film()), 8, 256));
+}
 
 struct Observed {
   double variance, work;
@@ -24,13 +29,14 @@ Observed observe(const Scene& scene, const PathSettings& path, McrtSettings own,
   integrator.prepare(scene, seed, stop);
   const double before = work_of(integrator.counters());
   Film film(scene.film().image_size());
-  integrator.render_pass(scene, {seed, 0, kImages}, film, stop);
+  const uint32_t images = image_count(scene);
+  integrator.render_pass(scene, {seed, 0, images}, film, stop);
   double variance = 0;
   for (const PixelSums& pixel : film.pixels())
     for (int c = 0; c < kChannels; ++c)
-      variance += std::max(0.0, pixel.squares[c] - sqr(pixel.radiance[c]) / kImages) / (kImages - 1);
+      variance += std::max(0.0, pixel.squares[c] - sqr(pixel.radiance[c]) / images) / (images - 1);
   return {variance / static_cast<double>(film.pixel_count() * kChannels),
-          (work_of(integrator.counters()) - before) / kImages};
+          (work_of(integrator.counters()) - before) / images};
 }
 
 }  // namespace
