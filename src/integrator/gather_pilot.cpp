@@ -14,7 +14,7 @@ constexpr double kLeastQ = 1.0 / 256;
 /// Enough samples in all to see the difference of the variances, and of each pixel to see a variance.
 uint32_t image_count(const Scene& scene) {
   constexpr size_t kSamples = size_t{1} << 17;
-  return static_cast<uint32_t>(std::clamp<size_t>(kSamples / pixel_count(scene.film()), 8, 256));
+  return static_cast<uint32_t>(std::clamp<size_t>(kSamples / pixel_count(scene.film()), 4, 256));
 }
 
 struct Observed {

@@ -40,7 +40,7 @@ class Mcrt::LightTracer final : public SplattingIntegrator::Worker {
         sink.gather(owner_.light_[i].contribution);
     depositor_.begin(sink);
     if (!owner_.store_.volumes().empty() || !owner_.store_.disks().empty())
-      for (size_t i = 0; i < static_cast<size_t>(owner_.own_.light_paths); ++i) {
+      for (size_t i = 0; i < owner_.paths_per_pixel_; ++i) {
         sampler_.start(pixel + i * pixels_, index);
         walk_.run(*owner_.sources_);
       }
@@ -63,7 +63,10 @@ std::unique_ptr<SplattingIntegrator::Worker> Mcrt::make_worker(const Scene& scen
 
 void Mcrt::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
   if (own_.chooses_q && !stop.requested()) own_.gather.q = choose_q(scene, path_, own_, seed, stop);
+  // What the largest deposits are shows with few paths.
+  paths_per_pixel_ = 1;
   SplattingIntegrator::prepare(scene, seed, stop);
+  paths_per_pixel_ = static_cast<size_t>(own_.light_paths);
 }
 
 void Mcrt::prepare_workers(const Scene& scene) {

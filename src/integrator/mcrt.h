@@ -55,6 +55,7 @@ class Mcrt : public SplattingIntegrator {
   std::optional<LightSources> sources_;
   std::optional<GatherPlan> plan_;
   GatherRadius first_radius_;
+  size_t paths_per_pixel_ = 1;
 
   // Of the image that is being made.
   GatherStore store_;
