@@ -9,7 +9,6 @@ namespace {
 
 constexpr uint64_t kPilotStream = 0x71;
 constexpr double kHigh = 1, kLow = 0.1;
-constexpr double kLeastQ = 1.0 / 256;
 
 /// Enough samples in all to see the difference of the variances, and of each pixel to see a variance.
 uint32_t image_count(const Scene& scene) {
@@ -17,12 +16,8 @@ uint32_t image_count(const Scene& scene) {
   return static_cast<uint32_t>(std::clamp<size_t>(kSamples / pixel_count(scene.film()), 4, 256));
 }
 
-struct Observed {
-  double variance, work;
-};
-
-Observed observe(const Scene& scene, const PathSettings& path, McrtSettings own, double q, uint64_t seed,
-                 const StopFlag& stop) {
+QObservation observe(const Scene& scene, const PathSettings& path, McrtSettings own, double q, uint64_t seed,
+                     const StopFlag& stop) {
   own.chooses_q = false;
   own.gather.q = static_cast<float>(q);
   Mcrt integrator(path, own);
@@ -31,15 +26,18 @@ Observed observe(const Scene& scene, const PathSettings& path, McrtSettings own,
   Film film(scene.film().image_size());
   const uint32_t images = image_count(scene);
   integrator.render_pass(scene, {seed, 0, images}, film, stop);
-  double variance = 0;
-  for (const PixelSums& pixel : film.pixels())
-    for (int c = 0; c < kChannels; ++c)
-      variance += std::max(0.0, pixel.squares[c] - sqr(pixel.radiance[c]) / images) / (images - 1);
-  return {variance / static_cast<double>(film.pixel_count() * kChannels),
-          (work_of(integrator.counters()) - before) / images};
+  return {q, mean_variance(film), (work_of(integrator.counters()) - before) / images};
 }
 
 }  // namespace
+
+double mean_variance(const Film& film) {
+  const auto n = static_cast<double>(film.samples());
+  double sum = 0;
+  for (const PixelSums& pixel : film.pixels())
+    for (int c = 0; c < kChannels; ++c) sum += std::max(0.0, pixel.squares[c] - sqr(pixel.radiance[c]) / n) / (n - 1);
+  return sum / static_cast<double>(film.pixel_count() * kChannels);
+}
 
 /// In units of one nearest-hit cast, as timed once in rooms of fog.
 double work_of(const Counters& counters) {
@@ -56,22 +54,20 @@ double QTradeOff::best(double least) const {
   return std::clamp(std::sqrt(std::max(0.0, variance) * work_by_spheres / (variance_by_q * work)), least, 1.0);
 }
 
-QTradeOff measure_q(const Scene& scene, const PathSettings& path, const McrtSettings& own, uint64_t seed,
-                    const StopFlag& stop) {
-  const uint64_t pilot_seed = hash_counters(seed, kPilotStream);
-  const Observed high = observe(scene, path, own, kHigh, pilot_seed, stop);
-  const Observed low = observe(scene, path, own, kLow, pilot_seed, stop);
+QTradeOff trade_off(const QObservation& high, const QObservation& low) {
   QTradeOff result;
-  result.variance_by_q = (high.variance - low.variance) / (kHigh - kLow);
-  result.variance = high.variance - result.variance_by_q * kHigh;
-  result.work_by_spheres = (low.work - high.work) / (1 / kLow - 1 / kHigh);
-  result.work = high.work - result.work_by_spheres / kHigh;
+  result.variance_by_q = (high.variance - low.variance) / (high.q - low.q);
+  result.variance = high.variance - result.variance_by_q * high.q;
+  result.work_by_spheres = (low.work - high.work) / (1 / low.q - 1 / high.q);
+  result.work = high.work - result.work_by_spheres / high.q;
   return result;
 }
 
 float choose_q(const Scene& scene, const PathSettings& path, const McrtSettings& own, uint64_t seed,
                const StopFlag& stop) {
-  const QTradeOff trade = measure_q(scene, path, own, seed, stop);
+  const uint64_t pilot_seed = hash_counters(seed, kPilotStream);
+  const QTradeOff trade =
+      trade_off(observe(scene, path, own, kHigh, pilot_seed, stop), observe(scene, path, own, kLow, pilot_seed, stop));
   if (stop.requested()) return 1;
   const double q = trade.best(kLeastQ);
   std::string curve;

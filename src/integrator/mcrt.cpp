@@ -79,7 +79,7 @@ void Mcrt::set_radii(uint64_t index) {
   const bool balls = own_.gather.estimator == GatherSettings::Estimator::kCollision &&
                      own_.gather.volumes == GatherSettings::Volumes::kSpheres;
   plan_->volume_radius = first_radius_.scaled(radius_factor(index, own_.keep, balls ? 3 : 2));
-  plan_->disk_radius = first_radius_.scaled(radius_factor(index, own_.keep, 2));
+  plan_->disk_radius = first_radius_.scaled(own_.disk_scale * radius_factor(index, own_.keep, 2));
 }
 
 bool Mcrt::prepare_round(const Scene& scene, uint64_t seed, uint64_t index, int round, const StopFlag& stop) {
@@ -185,6 +185,7 @@ std::vector<Parameter> parameters() {
        {"radius", ParameterType::kFloat, "0", "of volumes in the first image, scene units; 0: by pixels", kNonNegative},
        {"pixels", ParameterType::kFloat, "1",
         "radius in widths of what a pixel covers at the distance, where radius is 0", kPositive},
+       {"disk_scale", ParameterType::kFloat, "3", "radii of disks on surfaces, over those of volumes", kPositive},
        {"keep",
         ParameterType::kFloat,
         "0.6666667",
@@ -219,6 +220,7 @@ McrtSettings settings_of(const Properties& properties) {
   gather.long_segments = properties.string("segments") == "long";
   if (properties.number("radius") > 0) own.radius = properties.number("radius");
   own.pixels = properties.number("pixels");
+  own.disk_scale = properties.number("disk_scale");
   own.keep = properties.number("keep");
   const int64_t collisions = properties.integer("collisions");
   if (collisions == 0) properties.refuse("collisions", "must be at least 1, or -1");

@@ -13,6 +13,7 @@ struct McrtSettings {
   bool chooses_q = false;           ///< by a pilot, see GatherPilot
   std::optional<float> radius;      ///< of the first image, scene units; empty: in pixels
   float pixels = 1;                 ///< radius as a multiple of what a pixel covers at the distance
+  float disk_scale = 3;             ///< radii of disks over those of volumes
   float keep = 2.0f / 3;            ///< of radius_factor
   int light_paths = 1;              ///< per pixel of each image
   size_t memory = size_t{1} << 30;  ///< for volumes, disks and their index, bytes; about

@@ -21,7 +21,7 @@ const SuiteScene& suite_scene(const std::string& name) {
 
 // --- at a fixed radius all q have the same expectation --------------------------------------------------------------
 
-const char* const kFixed = ",radius=0.2,keep=1";
+const char* const kFixed = ",radius=0.2,disk_scale=1,keep=1";
 
 struct QCase {
   const char *scene, *estimator;
@@ -231,7 +231,7 @@ void expect_bdpt(const SuiteScene& scene, const std::string& contestant, uint32_
 TEST(McrtAgreement, WithBdpt) {
   for (const char* name : {"lamp in fog, any length", "laser in fog", "caustic into fog"})
     for (const char* how : {"volumes=cylinder", "q=0.05,surface_light=volumes"})
-      expect_bdpt(suite_scene(name), std::string("mcrt,radius=0.02,keep=1,") + how, 16, 6);
+      expect_bdpt(suite_scene(name), std::string("mcrt,radius=0.02,disk_scale=1,keep=1,") + how, 16, 6);
 }
 
 TEST(SlowMcrtAgreement, WithBdptEverywhere) {
@@ -239,7 +239,7 @@ TEST(SlowMcrtAgreement, WithBdptEverywhere) {
                                          "volumes=cylinder,surface_light=volumes"};
   for (const SuiteScene& scene : suite())
     for (const std::string& how : ways)
-      expect_bdpt(scene, "mcrt,radius=0.01,keep=1," + how, 128, ways.size() * suite().size());
+      expect_bdpt(scene, "mcrt,radius=0.01,disk_scale=1,keep=1," + how, 128, ways.size() * suite().size());
 }
 
 // --- the pass structure
