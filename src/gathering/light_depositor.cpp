@@ -93,7 +93,10 @@ void LightDepositor::at_surface(const SurfaceEvent& event, const PathState& stat
     if (dot(event.point.ng, vertex.point.ng) < kSameSurface) return;
     const int order = state.order + vertex.order;
     if (state.depth + vertex.depth > plan_.path.max_depth || !plan_.path.order_counts(order)) return;
-    const Spectrum f = vertex.scatter(wi, TransportMode::kRadiance).value;
+    const Vec3 wi_local = vertex.point.to_local(wi);
+    if (!(wi_local.z * dot(wi, vertex.point.ng) > 0)) return;
+    const Spectrum f =
+        vertex.object->bsdf->eval(vertex.point, vertex.given_local, wi_local, TransportMode::kRadiance).value;
     deposit(disk.pixel, vertex.throughput * f * state.throughput / (cosine * disk_area(disk.radius)), state.depth,
             vertex.depth + 1, order);
   });
