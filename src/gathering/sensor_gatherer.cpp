@@ -23,8 +23,9 @@ GatherRadius radius_in_pixels(const Scene& scene, float pixels) {
   const Vec2 size{static_cast<float>(scene.film().size.x), static_cast<float>(scene.film().size.y)};
   const SensorRay a = scene.sensor().sample_ray({0.5f, 0.5f}, {0.5f, 0.5f});
   const SensorRay b = scene.sensor().sample_ray({0.5f + 1 / size.x, 0.5f}, {0.5f, 0.5f});
-  // Volumes at a pinhole would have no size, and no variance: they stay as they are at this share of the scene.
-  constexpr float kLeastLength = 0.05f;
+  // The noise of volumes goes with 1/radius^2, and its integral along a line of sight is nearly all from where it
+  // begins. What is nearer than this share of the scene is drawn less sharply.
+  constexpr float kLeastLength = 0.5f;
   return {pixels * length(b.ray.origin - a.ray.origin), pixels * length(b.ray.direction - a.ray.direction),
           kLeastLength * scene.radius()};
 }
