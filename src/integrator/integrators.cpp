@@ -2,6 +2,7 @@
 
 #include "integrator/aov.h"
 #include "integrator/bdpt.h"
+#include "integrator/mcrt.h"
 #include "integrator/particle_tracer.h"
 #include "integrator/path_tracer.h"
 
@@ -32,8 +33,8 @@ IntegratorPlugin moment_row() {
 IntegratorTable make_table() {
   return IntegratorTable(
       Category::kIntegrator,
-      {path_row(), direct_row(), volpath_row(), single_scatter_row(), particle_tracer_row(), bdpt_row(), moment_row(),
-       aov_row()},
+      {path_row(), direct_row(), volpath_row(), single_scatter_row(), particle_tracer_row(), bdpt_row(), mcrt_row(),
+       moment_row(), aov_row()},
       {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective"},
       advice_for_old_names());
 }

@@ -139,10 +139,12 @@ void SplattingIntegrator::prepare(const Scene& scene, uint64_t seed, const StopF
   const size_t pixels = pixel_count(scene.film());
   PilotSink sink;
   for (uint64_t round = 0; round < kMostRounds && sink.largest() == 0 && !scene.emitters().empty(); ++round) {
+    const uint64_t pilot_seed = hash_counters(seed, kPilotStream);
+    prepare_round(scene, pilot_seed, round, 0, stop);
     parallel_for((kPilotPaths + kGrain - 1) / kGrain, [&](size_t task) {
       if (stop.requested()) return;
       SampleCounters counters;
-      const auto worker = make_worker(scene, hash_counters(seed, kPilotStream), counters);
+      const auto worker = make_worker(scene, pilot_seed, counters);
       for (size_t i = task * kGrain; i < std::min(kPilotPaths, (task + 1) * kGrain); ++i)
         worker->run(i % pixels, round + kMostRounds * (i / pixels), sink);
     });
@@ -167,20 +169,25 @@ bool SplattingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film
   const size_t pixels = film.pixel_count();
   std::vector<PixelSample> gathered(pixels);
   for (uint64_t index = pass.first_sample; index < pass.first_sample + pass.sample_count; ++index) {
-    parallel_for((pixels + kGrain - 1) / kGrain, [&](size_t task) {
-      if (stop.requested()) return;
-      SampleCounters counters;
-      PassSink sink(*this, film, splats, counters);
-      const auto worker = make_worker(scene, pass.seed, counters);
-      for (size_t pixel = task * kGrain; pixel < std::min(pixels, (task + 1) * kGrain); ++pixel) {
-        sink.begin(pixel);
-        const float alpha = worker->run(pixel, index, sink);
-        gathered[pixel] = sink.end();
-        gathered[pixel].alpha = alpha;
-      }
-      add_counters(counters);
-    });
-    if (stop.requested()) return false;
+    bool last_round = false;
+    for (int round = 0; !last_round; ++round) {
+      last_round = prepare_round(scene, pass.seed, index, round, stop);
+      parallel_for((pixels + kGrain - 1) / kGrain, [&](size_t task) {
+        if (stop.requested()) return;
+        SampleCounters counters;
+        PassSink sink(*this, film, splats, counters);
+        const auto worker = make_worker(scene, pass.seed, counters);
+        for (size_t pixel = task * kGrain; pixel < std::min(pixels, (task + 1) * kGrain); ++pixel) {
+          sink.begin(pixel);
+          const float alpha = worker->run(pixel, index, sink);
+          if (!last_round) continue;
+          gathered[pixel] = sink.end();
+          gathered[pixel].alpha = alpha;
+        }
+        add_counters(counters);
+      });
+      if (stop.requested()) return false;
+    }
     for (size_t i = 0; i < pixels; ++i) {
       gathered[i].radiance += splats.picture.sum(i);
       film.pixel(i).add(gathered[i]);

@@ -4,30 +4,10 @@
 
 #include "image/splat_buffer.h"
 #include "integrator/integrator.h"
+#include "path/contribution.h"
 #include "path/sample_counters.h"
 
 namespace turbid {
-
-/// A path from a light to the sensor that contributes: how it was put together, and what it carries.
-struct Contribution {
-  Spectrum value;           ///< as if this were the only way to make such paths
-  float weight = 1;         ///< of multiple importance sampling
-  int light_vertices = 0;   ///< made by the walk from the light, the light itself included
-  int sensor_vertices = 0;  ///< made by the walk from the sensor, the sensor included
-  int order = 0;            ///< collisions in media
-
-  int edges() const { return light_vertices + sensor_vertices - 1; }
-};
-
-/// Takes what paths bring.
-class ContributionSink {
- public:
-  virtual ~ContributionSink() = default;
-  /// To the pixel whose sample is being made.
-  virtual void gather(const Contribution& contribution) = 0;
-  /// To any pixel of the crop window, given by its number.
-  virtual void splat(size_t pixel, const Contribution& contribution) = 0;
-};
 
 /// An integrator whose light paths may reach any pixel. For each sample index there is one light path for every pixel
 /// of the film; the picture that they make together, with what the pixels gather themselves, is one sample of every
@@ -54,6 +34,13 @@ class SplattingIntegrator : public Integrator {
   virtual std::unique_ptr<Worker> make_worker(const Scene& scene, uint64_t seed, SampleCounters& counters) const = 0;
   /// Once, before any worker: what all of them share.
   virtual void prepare_workers(const Scene& scene) = 0;
+  /// Before the workers make sample `index` of all pixels: what they share for this sample alone, such as what walks
+  /// from the sensor have left for light to find. False: it does not fit into memory at once; the workers run, without
+  /// gathering, and then the next round is prepared. They gather in the last round.
+  virtual bool prepare_round(const Scene& /*scene*/, uint64_t /*seed*/, uint64_t /*index*/, int /*round*/,
+                             const StopFlag& /*stop*/) {
+    return true;
+  }
 
   /// Writes the contributions of all strategies for paths of up to `max_edges` edges into layers of their own, named
   /// strategy.{weighted,plain}.EDGES.LIGHT_VERTICES.{R,G,B}.

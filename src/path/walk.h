@@ -33,6 +33,8 @@ struct WalkRecorder {
                     const Traveller&) {}
   void left_collision(const CollisionEvent&, float /*mu*/, const Vec3& /*chosen*/, const PathState&, const Traveller&) {
   }
+  /// Asked after each vertex: false ends the walk there.
+  bool goes_on() const { return true; }
 };
 
 /// A random path through the scene from one of its ends: TransportMode::kRadiance from the sensor, kImportance from a
@@ -199,6 +201,7 @@ class Walk {
   /// Russian roulette: survives with the share of the initial flux or importance that is left (but for the scaling of
   /// radiance in matter), so that all survivors weigh alike.
   bool survives() {
+    if (!recorder_.goes_on()) return false;
     // The edge that would end here could still be joined with the sensor only if there is one more.
     if (kFromLight && depth_ + 1 >= settings_.max_depth) return false;
     if (depth_ < settings_.rr_depth) return true;

@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 
 #include "scene/builder.h"
+#include "scene/values.h"
 #include "texture/bitmap.h"
 #include "texture/checkerboard.h"
 #include "texture/constant.h"
 #include "texture/mesh_attribute.h"
+#include "texture/strokes.h"
 
 namespace turbid {
 namespace {
@@ -27,6 +29,18 @@ TexturePtr make_bitmap(const Properties& p, Builder& builder) {
   const Transform to_uv = p.transform("to_uv");
   for (int i = 0; i < 16; ++i) key += fmt::format(" {}", to_uv.at(i / 4, i % 4));
   return builder.picture(key, [&] { return std::make_shared<BitmapTexture>(path, settings); });
+}
+
+TexturePtr make_strokes(const Properties& p, Builder& b) {
+  const std::vector<double> numbers = read_numbers(p.string("points"), p.where("points"));
+  if (numbers.empty() || numbers.size() % 4 != 0)
+    p.refuse("points", fmt::format("takes four numbers for each stroke, found {}", numbers.size()));
+  std::vector<Stroke> strokes;
+  const auto number = [&](size_t i) { return static_cast<float>(numbers[i]); };
+  for (size_t i = 0; i < numbers.size(); i += 4)
+    strokes.push_back({{number(i), number(i + 1)}, {number(i + 2), number(i + 3)}});
+  return std::make_shared<StrokesTexture>(std::move(strokes), p.number("width"), b.texture(p, "color0"),
+                                          b.texture(p, "color1"), UvTransform(p.transform("to_uv")));
 }
 
 const Parameter kToUv{"to_uv", kTransform, "identity", "maps surface parameters before the look-up"};
@@ -86,6 +100,14 @@ const TextureTable& texture_table() {
               return std::make_shared<CheckerboardTexture>(b.texture(p, "color0"), b.texture(p, "color1"),
                                                            UvTransform(p.transform("to_uv")));
             }},
+       {.name = "strokes",
+        .summary = "Straight strokes of a pen on a ground: letters, emblems, grids.",
+        .parameters = {{"points", kString, kRequired, "u and v of both ends of each stroke: four numbers"},
+                       {"width", kFloat, "0.02", "of the strokes, in units of uv", kPositive},
+                       {"color0", kTexture, "0.4", "of the strokes"},
+                       {"color1", kTexture, "0.2", "of the ground"},
+                       kToUv},
+        .make = make_strokes},
        {.name = "mesh_attribute",
         .summary = "Numbers that a mesh carries on its vertices or faces.",
         .parameters = {{"name", kString, kRequired, "of the attribute: vertex_color, face_weight ..."},

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstddef>
+
+#include "core/spectrum.h"
+
+namespace turbid {
+
+/// A path from a light to the sensor that contributes: how it was put together, and what it carries.
+struct Contribution {
+  Spectrum value;           ///< as if this were the only way to make such paths
+  float weight = 1;         ///< of multiple importance sampling
+  int light_vertices = 0;   ///< made by the walk from the light, the light itself included
+  int sensor_vertices = 0;  ///< made by the walk from the sensor, the sensor included
+  int order = 0;            ///< collisions in media
+
+  int edges() const { return light_vertices + sensor_vertices - 1; }
+};
+
+/// Takes what paths bring.
+class ContributionSink {
+ public:
+  virtual ~ContributionSink() = default;
+  /// To the pixel whose sample is being made.
+  virtual void gather(const Contribution& contribution) = 0;
+  /// To any pixel of the crop window, given by its number.
+  virtual void splat(size_t pixel, const Contribution& contribution) = 0;
+};
+
+}  // namespace turbid

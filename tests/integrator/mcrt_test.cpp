@@ -1,0 +1,305 @@
+// Gathering volumes: `mcrt` against itself, against closed forms, and against `bdpt`.
+#include "integrator/mcrt.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "integrator/agreement.h"
+#include "integrator/suite.h"
+
+namespace turbid::testing {
+namespace {
+
+using namespace pieces;
+
+const SuiteScene& suite_scene(const std::string& name) {
+  static const std::vector<SuiteScene> scenes = suite();
+  return *std::find_if(scenes.begin(), scenes.end(), [&](const SuiteScene& scene) { return scene.name == name; });
+}
+
+std::string name_of(std::string name) {
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+}
+
+// --- at a fixed radius all q have the same expectation --------------------------------------------------------------
+
+const char* const kFixed = ",radius=0.2,disk_scale=1,keep=1";
+
+struct QCase {
+  const char *scene, *estimator;
+  uint32_t samples;
+};
+class FixedRadius : public ::testing::TestWithParam<QCase> {};
+
+TEST_P(FixedRadius, AllQHaveOneExpectation) {
+  const std::string& xml = suite_scene(GetParam().scene).xml;
+  const std::string rest = std::string(kFixed) + ",estimator=" + GetParam().estimator;
+  const uint32_t samples = GetParam().samples;
+  const Observation one = observe(xml, {"mcrt,q=1" + rest, 4 * samples, 1, 1}, 8);
+  for (const char* q : {"0.3", "0.1"}) {
+    const Agreement agreement = compare(one, observe(xml, {std::string("mcrt,q=") + q + rest, samples, 1, 2}, 8));
+    EXPECT_EQ(agreement.cannot, "");
+    EXPECT_TRUE(agreement.accepted(8)) << q << "\n" << agreement.report();
+    EXPECT_LT(agreement.ratio_error[0], 0.02) << "too noisy to say anything";
+  }
+  const Agreement planted = compare(one, observe(xml, {"mcrt,q=0.3" + rest, samples, 1.1, 2}, 8));
+  EXPECT_FALSE(planted.accepted(8)) << "an error of a tenth must show";
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Estimators, FixedRadius,
+    ::testing::Values(QCase{"lamp in fog, any length", "track", 32}, QCase{"lamp in fog, any length", "collision", 64},
+                      QCase{"chromatic medium", "track", 32}, QCase{"heterogeneous medium", "track", 32}),
+    [](const auto& instance) { return name_of(std::string(instance.param.scene) + "_" + instance.param.estimator); });
+
+/// A box of fog: its lights are those of the suite.
+std::string fog_box(const std::string& medium) {
+  return scene(kLamp + kFloor + R"(<shape type="cube"><transform name="to_world"><translate x="0.1" y="0.1" z="1.1"/>
+               </transform><bsdf type="null"/>)" +
+                   medium + "</shape>",
+               integer("max_depth", 5));
+}
+
+/// A heterogeneous medium that is the same everywhere gathers as a homogeneous one does by collisions.
+TEST(McrtHeterogeneous, ContainsTheHomogeneousOne) {
+  const std::string varied = R"(<medium name="interior" type="heterogeneous"><volume name="sigma_t" type="constvolume">
+    <rgb name="value" value="0.3, 0.6, 0.9"/><transform name="to_world"><scale value="4"/>
+    <translate x="-2" y="-2" z="-1"/></transform></volume><volume name="albedo" type="constvolume">
+    <rgb name="value" value="0.9, 0.8, 0.7"/></volume></medium>)";
+  const std::string same = R"(<medium name="interior" type="homogeneous"><rgb name="sigma_t" value="0.3, 0.6, 0.9"/>
+    <rgb name="albedo" value="0.9, 0.8, 0.7"/></medium>)";
+  const std::string how = std::string("mcrt,q=0.25,estimator=collision") + kFixed;
+  const Agreement agreement =
+      compare(observe(fog_box(same), {how, 32, 1, 1}, 8), observe(fog_box(varied), {how, 32, 1, 2}, 8));
+  EXPECT_TRUE(agreement.accepted()) << agreement.report();
+  EXPECT_LT(agreement.ratio_error[2], 0.05) << agreement.report();
+}
+
+/// Long and short cylinders and segments are one expectation, too.
+void expect_long_and_short_agree(uint32_t samples, double largest_error) {
+  const std::string& xml = suite_scene("chromatic medium").xml;
+  const std::string cylinder = std::string("mcrt,volumes=cylinder") + kFixed;
+  const Observation shortest = observe(xml, {cylinder + ",cylinders=short", samples, 1, 1}, 8);
+  for (const char* kind : {"", ",segments=long", ",cylinders=short,segments=long", ",estimator=collision"}) {
+    const Agreement agreement = compare(shortest, observe(xml, {cylinder + kind, samples, 1, 2}, 8));
+    EXPECT_TRUE(agreement.accepted(4)) << kind << "\n" << agreement.report();
+    EXPECT_LT(agreement.ratio_error[0], largest_error) << kind;
+  }
+}
+TEST(McrtCylinders, LongAndShortAgree) { expect_long_and_short_agree(8, 0.05); }
+TEST(SlowMcrtCylinders, LongAndShortAgree) { expect_long_and_short_agree(128, 0.01); }
+
+// --- the bias of smooth light falls with the square of the radius ---------------------------------------------------
+
+constexpr double kSigmaT = 0.25, kSigmaS = 0.2, kG = 0.3, kFar = 40;
+
+/// A point light at height 1 over the line of sight, in fog without end; single scattering, one thin pencil of rays.
+std::string endless_fog(int pixels) {
+  return R"(<scene version="3.0.0"><integrator type="volpath"><integer name="max_scattering" value="1"/></integrator>
+  <sensor type="perspective"><float name="fov" value="0.2"/><transform name="to_world">
+  <lookat origin="0, -3, 0" target="0, 0, 0" up="0, 0, 1"/></transform><film type="hdrfilm">)" +
+         integer("width", pixels) + integer("height", pixels) + R"(<rfilter type="box"/></film></sensor>
+  <emitter type="point"><point name="position" value="0, 0, 1"/><rgb name="intensity" value="1"/></emitter>)" +
+         ball("0, 0, 0", static_cast<float>(kFar),
+              R"(<bsdf type="null"/>)" +
+                  medium("interior", "0.25, 0.25, 0.25", "0.8, 0.8, 0.8", static_cast<float>(kG))) +
+         "</scene>";
+}
+
+/// What the middle ray sees of its point at distance t: sigma_s T f E at `p`, whose light comes from above.
+double seen_of(double t, const Imath::V3d& p, double length, const Imath::V3d& travels) {
+  const double mu = -travels.y / travels.length();  // the sensor looks along +y
+  const double f = (1 - kG * kG) / (4 * std::numbers::pi * std::pow(1 + kG * kG - 2 * kG * mu, 1.5));
+  return kSigmaS * f * std::exp(-kSigmaT * (t + length)) / (p - Imath::V3d(0, 0, 1)).length2();
+}
+double seen_at(double t, const Imath::V3d& p) {
+  const Imath::V3d travels = p - Imath::V3d(0, 0, 1);
+  return seen_of(t, p, travels.length(), travels);
+}
+Imath::V3d on_ray(double t) { return {0, t - 3, 0}; }
+
+/// int_0^far kernel(t) dt by the midpoint rule.
+template <class Kernel>
+double along_ray(const Kernel& kernel, double step) {
+  double sum = 0;
+  for (double t = step / 2; t < 20; t += step) sum += kernel(t) * step;
+  return sum;
+}
+
+double truth() {
+  return along_ray([](double t) { return seen_at(t, on_ray(t)); }, 1e-3);
+}
+
+/// The mean over the cylinder's disks of radius R across the ray.
+double cylinder_expectation(double radius) {
+  constexpr int kRings = 24, kAngles = 24;
+  return along_ray(
+      [&](double t) {
+        double sum = 0;
+        for (int i = 0; i < kRings; ++i)
+          for (int k = 0; k < kAngles; ++k) {
+            const double r = radius * std::sqrt((i + 0.5) / kRings), phi = 2 * std::numbers::pi * (k + 0.5) / kAngles;
+            sum += seen_at(t, on_ray(t) + Imath::V3d(r * std::cos(phi), 0, r * std::sin(phi)));
+          }
+        return sum / (kRings * kAngles);
+      },
+      0.01);
+}
+
+/// Light that passes within R of the sphere's centre, sin theta = R/r off the line from the light: intensity times
+/// solid angle over pi R^2, attenuated up to where it passes.
+double sphere_expectation(double radius) {
+  constexpr int kCones = 24, kAngles = 24;
+  return along_ray(
+      [&](double t) {
+        const Imath::V3d from = on_ray(t) - Imath::V3d(0, 0, 1);
+        const double r = from.length(), least_cosine = std::sqrt(1 - sqr(radius / r));
+        const Imath::V3d axis = from / r, u = axis.cross(Imath::V3d(1, 0, 0)).normalized(), v = axis.cross(u);
+        const double solid_angle = 2 * std::numbers::pi * (1 - least_cosine);
+        double sum = 0;
+        for (int i = 0; i < kCones; ++i)
+          for (int k = 0; k < kAngles; ++k) {
+            const double cosine = 1 - (1 - least_cosine) * (i + 0.5) / kCones, sine = std::sqrt(1 - sqr(cosine));
+            const double phi = 2 * std::numbers::pi * (k + 0.5) / kAngles;
+            const Imath::V3d ray = axis * cosine + (u * std::cos(phi) + v * std::sin(phi)) * sine;
+            sum += seen_of(t, on_ray(t), r * cosine, ray) * r * r;
+          }
+        return sum / (kCones * kAngles) * solid_angle / (std::numbers::pi * sqr(radius));
+      },
+      0.01);
+}
+
+double slope_of(double (*expectation)(double), double radius) {
+  return std::log2((expectation(radius) - truth()) / (expectation(radius / 2) - truth()));
+}
+
+/// How much is spent on a bias: images, their pixels across, and the light paths for each pixel. Light alone makes the
+/// noise of cylinders; spheres need many walks from the sensor, too.
+struct Effort {
+  uint32_t samples;
+  int pixels, light_paths;
+};
+struct Estimate {
+  double mean, error;
+};
+Estimate estimate(const std::string& volumes, double radius, const Effort& effort) {
+  const std::string contestant =
+      fmt::format("mcrt,{},radius={},keep=1,segments=long,light_paths={}", volumes, radius, effort.light_paths);
+  const Observation seen = observe(endless_fog(effort.pixels), {contestant, effort.samples, 1, 7}, 16);
+  return {seen.all.mean(0, 0), std::sqrt(seen.all.variance(0, 0) / kPasses)};
+}
+
+void expect_expectation(const std::string& volumes, double radius, const Effort& effort,
+                        double (*expectation)(double)) {
+  const Estimate found = estimate(volumes, radius, effort);
+  const double expected = expectation(radius), bias = expected / truth() - 1;
+  std::printf("%-26s radius %.2f: bias %8.5f by quadrature, %8.5f +- %.5f found\n", volumes.c_str(), radius, bias,
+              found.mean / truth() - 1, found.error / truth());
+  EXPECT_LT(std::abs(found.mean - expected), 4 * found.error) << volumes << " " << radius;
+  EXPECT_GT(std::abs(1.1 * found.mean - expected), 4 * found.error) << "too noisy to notice an error of a tenth";
+}
+
+/// The bias is what the kernel does to the light, and that falls with the square of the radius.
+TEST(McrtBias, IsThatOfTheKernel) {
+  EXPECT_NEAR(slope_of(cylinder_expectation, 0.1), 2, 0.02);
+  EXPECT_NEAR(slope_of(sphere_expectation, 0.1), 2, 0.02);
+  const Effort light{4, 1, 20000}, both{128, 4, 16};
+  expect_expectation("volumes=cylinder", 0.8, light, cylinder_expectation);
+  expect_expectation("volumes=cylinder", 0.05, light, cylinder_expectation);
+  expect_expectation("q=1", 0.8, both, sphere_expectation);
+  expect_expectation("q=0.1", 0.8, both, sphere_expectation);
+}
+
+TEST(SlowMcrtBias, IsThatOfTheKernel) {
+  for (const double radius : {0.8, 0.4, 0.2})
+    expect_expectation("volumes=cylinder", radius, {16, 1, 80000}, cylinder_expectation);
+  for (const double radius : {0.8, 0.4})
+    for (const char* q : {"q=1", "q=0.1"}) expect_expectation(q, radius, {512, 8, 16}, sphere_expectation);
+}
+
+// --- small radii make the picture of bdpt ---------------------------------------------------------------------------
+
+/// Radii small enough that their bias is under the noise, and wide enough that light finds volumes in every pass: a
+/// block that it finds rarely would seem to have less variance than it has.
+void expect_bdpt(const SuiteScene& scene, const std::string& contestant, uint32_t samples, size_t comparisons) {
+  const int block = 16;
+  const Observation reference = observe(scene.xml, {"bdpt", samples * scene.effort, 1, 1}, block);
+  const Agreement agreement = compare(reference, observe(scene.xml, {contestant, samples * scene.effort, 1, 2}, block));
+  if (!agreement.cannot.empty()) return;
+  EXPECT_TRUE(agreement.accepted(comparisons)) << scene.name << ", " << contestant << "\n" << agreement.report();
+}
+
+TEST(McrtAgreement, WithBdpt) {
+  for (const char* name : {"lamp in fog, any length", "laser in fog", "caustic into fog"})
+    for (const char* how : {"volumes=cylinder", "q=0.05,surface_light=volumes"})
+      expect_bdpt(suite_scene(name), std::string("mcrt,radius=0.05,disk_scale=1,keep=1,") + how, 12, 6);
+}
+
+class McrtAgreementEverywhere : public ::testing::TestWithParam<SuiteScene> {};
+
+TEST_P(McrtAgreementEverywhere, WithBdpt) {
+  const std::vector<std::string> ways = {"volumes=cylinder", "q=0.05", "q=0.05,collisions=-1", "q=0.05,surfaces=paths",
+                                         "volumes=cylinder,surface_light=volumes"};
+  for (const std::string& how : ways)
+    expect_bdpt(GetParam(), "mcrt,radius=0.03,disk_scale=1,keep=1," + how, 64, ways.size() * suite().size());
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowScenes, McrtAgreementEverywhere, ::testing::ValuesIn(suite()),
+                         [](const auto& instance) { return name_of(instance.param.name); });
+
+// --- the pass structure
+// -----------------------------------------------------------------------------------------------
+
+Film render_mcrt(const std::string& settings, uint32_t samples, int threads = 2,
+                 const std::string& xml = suite_scene("lamp in fog, any length").xml) {
+  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
+  std::vector<std::pair<std::string, std::string>> values = {{"radius", "0.1"}};
+  for (size_t at = 0; at < settings.size();) {
+    const size_t end = std::min(settings.find(',', at), settings.size()), equals = settings.find('=', at);
+    values.emplace_back(settings.substr(at, equals - at), settings.substr(equals + 1, end - equals - 1));
+    at = end + 1;
+  }
+  const auto replaced = replace_integrator(loaded.integrator, "mcrt", values);
+  const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
+  const Scene scene(std::move(loaded.parts));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute([&] { return render_with(scene, *setup.integrator, samples); });
+}
+
+void expect_same(const Film& a, const Film& b) {
+  for (size_t i = 0; i < a.pixel_count(); ++i)
+    for (int c = 0; c < kChannels; ++c) EXPECT_EQ(a.pixel(i).radiance[c], b.pixel(i).radiance[c]) << i;
+}
+
+TEST(McrtPasses, DoNotDependOnThreads) {
+  for (const char* settings : {"q=auto", "volumes=cylinder"})
+    expect_same(render_mcrt(settings, 4, 1), render_mcrt(settings, 4, 3));
+}
+
+TEST(McrtPasses, DoNotDependOnMemory) {
+  std::string xml = suite_scene("lamp in fog, any length").xml;
+  for (size_t at; (at = xml.find("value=\"16\"/>")) != std::string::npos;) xml.replace(at, 10, "value=\"140\"");
+  expect_same(render_mcrt("q=0.1,memory=1", 1, 2, xml), render_mcrt("q=0.1,memory=1024", 1, 2, xml));
+}
+
+TEST(McrtPasses, RefuseWhatMakesNoSense) {
+  const auto message = [](const std::string& settings) {
+    try {
+      render_mcrt(settings, 1);
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(message("q=some").find("must be a number or 'auto'"), std::string::npos) << message("q=some");
+  EXPECT_NE(message("q=0").find("expected a number in (0, 1]"), std::string::npos) << message("q=0");
+  EXPECT_NE(message("collisions=0").find("must be at least 1, or -1"), std::string::npos) << message("collisions=0");
+  EXPECT_NE(message("volumes=ball").find("sphere"), std::string::npos) << message("volumes=ball");
+}
+
+}  // namespace
+}  // namespace turbid::testing
