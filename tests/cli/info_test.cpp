@@ -43,6 +43,7 @@ TEST_F(Info, HasNothingToWarnOfInASoundScene) {
 TEST_F(Info, HasNothingToWarnOfInTheScenesThatShip) {
   const auto root = std::filesystem::path(__FILE__).parent_path().parent_path().parent_path();
   for (const auto& entry : std::filesystem::directory_iterator(root / "scenes")) {
+    if (entry.is_directory()) continue;  // parts of scenes
     const testing::Outcome outcome = testing::run_turbid(folder_.path().string(), {"info", entry.path().string()});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.errors;
     EXPECT_EQ(outcome.errors, "");

@@ -243,7 +243,7 @@ class SlowRefractiveScatteringAgrees : public ::testing::TestWithParam<Compariso
 TEST_P(SlowRefractiveScatteringAgrees, WithVolpath) {
   expect_agreement(GetParam(), 64 * GetParam().volpath_samples, 6, GetParam().largest_error / 3);
 }
-INSTANTIATE_TEST_SUITE_P(Scenes, SlowRefractiveScatteringAgrees, ::testing::ValuesIn(comparisons(0.4f)),
+INSTANTIATE_TEST_SUITE_P(Slow, SlowRefractiveScatteringAgrees, ::testing::ValuesIn(comparisons(0.4f)),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace
