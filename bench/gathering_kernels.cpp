@@ -168,18 +168,7 @@ class FacingDisks {
   int64_t count(const Ray& ray) const {
     Query query{{}, 0};
     rtcInitIntersectContext(&query.context);
-    alignas(16) RTCRay cast{ray.origin.x,
-                            ray.origin.y,
-                            ray.origin.z,
-                            0,
-                            ray.direction.x,
-                            ray.direction.y,
-                            ray.direction.z,
-                            0,
-                            ray.t_max,
-                            ~0u,
-                            0,
-                            0};
+    alignas(16) RTCRay cast = embree_ray(ray, ray.t_max);
     rtcOccluded1(scene_, &query.context, &cast);
     return query.found;
   }

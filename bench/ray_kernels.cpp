@@ -72,7 +72,7 @@ class PlainEmbree {
   float nearest(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query{to_embree(ray), {}};
+    RTCRayHit query{embree_ray(ray, ray.t_max), {}};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(scene_, &context, &query);
     return query.ray.tfar;
@@ -80,26 +80,12 @@ class PlainEmbree {
   bool occluded(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay query = to_embree(ray);
+    RTCRay query = embree_ray(ray, ray.t_max);
     rtcOccluded1(scene_, &context, &query);
     return query.tfar < 0;
   }
 
  private:
-  static RTCRay to_embree(const Ray& ray) {
-    return {ray.origin.x,
-            ray.origin.y,
-            ray.origin.z,
-            0,
-            ray.direction.x,
-            ray.direction.y,
-            ray.direction.z,
-            0,
-            ray.t_max,
-            ~0u,
-            0,
-            0};
-  }
   RTCDevice device_;
   RTCScene scene_;
 };

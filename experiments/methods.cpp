@@ -61,7 +61,8 @@ Noise measure_noise(const Stage& stage, const std::string& integrator, uint32_t 
   std::vector<double> errors, seconds;
   for (int seed = 1; seed <= seeds; ++seed) {
     const Stage::Shot shot = stage.render(integrator, samples, static_cast<uint64_t>(seed));
-    errors.push_back(compare_images(color_channels(shot.image, integrator), color_channels(reference, "reference")).rmse);
+    errors.push_back(
+        compare_images(color_channels(shot.image, integrator), color_channels(reference, "reference")).rmse);
     seconds.push_back(shot.seconds);
   }
   const double rmse = median(errors);

@@ -73,7 +73,9 @@ int run(int argc, char** argv) {
     rows.push_back(measure(loaded, scene, fmt::format("{} cylinders", kind), settings, images));
   }
 
-  const auto at = [&](double q) { return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.q == q; }); };
+  const auto at = [&](double q) {
+    return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.q == q; });
+  };
   const QTradeOff trade = trade_off({1, at(1).variance, at(1).work}, {0.1, at(0.1).variance, at(0.1).work});
   const auto least = [&](double (*value)(const Row&)) {
     double result = value(rows.front());
@@ -83,12 +85,13 @@ int run(int argc, char** argv) {
   const auto by_time = [](const Row& r) { return r.variance * r.seconds; };
   const auto by_work = [](const Row& r) { return r.variance * r.work; };
   const double least_time = least(by_time), least_work = least(by_work);
-  fmt::print("| volumes | variance | predicted | CPU s per image | work, casts | variance x time | variance x work |\n");
+  fmt::print(
+      "| volumes | variance | predicted | CPU s per image | work, casts | variance x time | variance x work |\n");
   fmt::print("| --- | --- | --- | --- | --- | --- | --- |\n");
   for (const Row& row : rows)
     fmt::print("| {} | {:.4g} | {} | {:.3f} | {:.3g} | {:.2f} | {:.2f} |\n", row.name, row.variance,
-               row.q > 0 ? fmt::format("{:.4g}", trade.variance + trade.variance_by_q * row.q) : "", row.seconds, row.work,
-               by_time(row) / least_time, by_work(row) / least_work);
+               row.q > 0 ? fmt::format("{:.4g}", trade.variance + trade.variance_by_q * row.q) : "", row.seconds,
+               row.work, by_time(row) / least_time, by_work(row) / least_work);
   fmt::print("chosen: q = {:.3g}\n", trade.best(kLeastQ));
   return 0;
 }

@@ -48,13 +48,11 @@ double seed_with_equiangular(const std::string& scenes, double g, double mean) {
 
 /// Fig. 11: RMSE over the mean at 4 samples per pixel, by g.
 void figure_11(const std::string& scenes) {
-  const std::vector<Method> methods = {{"distance sampling", kGather + "standard"},
-                                       {"equiangular", kGather + "equiangular"},
-                                       {"product, tabulated", kGather + "product"},
-                                       {"geometry, splatted", kSplat + "once_more,sampling=geometry"},
-                                       {"angle, splatted", kSplat + "once_more"},
-                                       {"mis, splatted", kSplat + "mis"},
-                                       {"mis, gathered", kGather + "mis"}};
+  const std::vector<Method> methods = {
+      {"distance sampling", kGather + "standard"}, {"equiangular", kGather + "equiangular"},
+      {"product, tabulated", kGather + "product"}, {"geometry, splatted", kSplat + "once_more,sampling=geometry"},
+      {"angle, splatted", kSplat + "once_more"},   {"mis, splatted", kSplat + "mis"},
+      {"mis, gathered", kGather + "mis"}};
   fmt::print("| g | seed + equiangular |");
   for (const Method& method : methods) fmt::print(" {} |", method.name);
   fmt::print("\n| --- | --- |");

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "core/ray.h"
+#include "geometry/embree_ray.h"
 
 namespace turbid {
 
@@ -27,18 +27,7 @@ class VolumeIndex {
     if (empty()) return;
     Query query{{}, &visit, call<Visit>};
     rtcInitIntersectContext(&query.context);
-    alignas(16) RTCRay cast{ray.origin.x,
-                            ray.origin.y,
-                            ray.origin.z,
-                            0,
-                            ray.direction.x,
-                            ray.direction.y,
-                            ray.direction.z,
-                            0,
-                            ray.t_max,
-                            ~0u,
-                            0,
-                            0};
+    alignas(16) RTCRay cast = embree_ray(ray, ray.t_max);
     rtcOccluded1(scene_, &query.context, &cast);
   }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/embree_ray.h"
 #include "geometry/placed_tree.h"
 #include "geometry/shape.h"
 #include "geometry/sphere.h"
@@ -73,18 +74,7 @@ inline Hit RayCaster::intersect(const Ray& ray) const {
   const uint32_t lone_sphere = hit.shape;
   if (scene_ != nullptr) {
     alignas(16) RTCRayHit cast;
-    cast.ray = {ray.origin.x,
-                ray.origin.y,
-                ray.origin.z,
-                0,
-                ray.direction.x,
-                ray.direction.y,
-                ray.direction.z,
-                0,
-                hit.t,
-                ~0u,
-                0,
-                0};
+    cast.ray = embree_ray(ray, hit.t);
     cast.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -108,18 +98,7 @@ inline bool RayCaster::occluded(const Ray& ray) const {
   for (const LoneSphere& lone : spheres_)
     if (lone.sphere->intersect(ray.origin, ray.direction) < static_cast<double>(ray.t_max)) return true;
   if (scene_ == nullptr) return false;
-  alignas(16) RTCRay cast{ray.origin.x,
-                          ray.origin.y,
-                          ray.origin.z,
-                          0,
-                          ray.direction.x,
-                          ray.direction.y,
-                          ray.direction.z,
-                          0,
-                          ray.t_max,
-                          ~0u,
-                          0,
-                          0};
+  alignas(16) RTCRay cast = embree_ray(ray, ray.t_max);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   rtcOccluded1(scene_, &context, &cast);

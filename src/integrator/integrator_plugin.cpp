@@ -7,15 +7,28 @@ int unlimited_if_negative(int64_t value) {
   return value < 0 ? PathSettings::kUnlimited : static_cast<int>(std::min<int64_t>(value, PathSettings::kUnlimited));
 }
 
-/// The value of a parameter that is one of some words.
+/// The words of a parameter and what they mean.
 template <class Value>
-Value one_of(const Properties& properties, const std::string& name, const std::map<std::string, Value>& words) {
-  const std::string word = properties.string(name);
-  const auto found = words.find(word);
-  if (found != words.end()) return found->second;
-  std::vector<std::string> known;
-  for (const auto& entry : words) known.push_back(entry.first);
-  properties.refuse(name, "has the unknown value '" + word + "'" + suggestion(word, known));
+using Words = std::vector<std::pair<std::string, Value>>;
+
+const Words<ConnectionTechnique> kTechniques = {{"standard", ConnectionTechnique::kStandard},
+                                                {"equiangular", ConnectionTechnique::kEquiangular},
+                                                {"product", ConnectionTechnique::kProduct},
+                                                {"once_more", ConnectionTechnique::kOnceMore},
+                                                {"mis", ConnectionTechnique::kMis}};
+const Words<Insertion> kInsertions = {
+    {"angle", Insertion::kAngle}, {"seed", Insertion::kSolidAngle}, {"geometry", Insertion::kGeometry}};
+
+template <class Value>
+std::vector<std::string> choices(const Words<Value>& words) {
+  std::vector<std::string> result;
+  for (const auto& entry : words) result.push_back(entry.first);
+  return result;
+}
+
+template <class Value>
+Value meaning(const Words<Value>& words, const std::string& word) {
+  return std::find_if(words.begin(), words.end(), [&](const auto& entry) { return entry.first == word; })->second;
 }
 
 }  // namespace
@@ -52,27 +65,25 @@ PathSettings path_settings(const Properties& properties) {
   return settings;
 }
 
+Parameter word(const std::string& name, const std::string& value, const std::string& meaning,
+               std::vector<std::string> choices) {
+  return {name, ParameterType::kString, value, meaning, {}, std::move(choices)};
+}
+
 std::vector<Parameter> connection_parameters(const std::string& name, const std::string& end) {
-  return {
-      {name, ParameterType::kString, "standard",
-       "how the collision next to the " + end +
-           " is found: standard (by the walk), equiangular or product (along the walk's ray), once_more "
-           "(inserted), mis (all but equiangular)"},
-      {"sampling", ParameterType::kString, "angle",
-       "of inserted collisions: angle (constant weight on the whole sphere), seed (as published, forward), geometry "
-       "(joint importance sampling, for isotropic media)"}};
+  return {word(name, "standard",
+               "how the collision next to the " + end +
+                   " is found: standard (by the walk), equiangular or product (along the walk's ray), once_more "
+                   "(inserted), mis (all but equiangular)",
+               choices(kTechniques)),
+          word("sampling", "angle",
+               "of inserted collisions: angle (constant weight on the whole sphere), seed (as published, forward), "
+               "geometry (joint importance sampling, for isotropic media)",
+               choices(kInsertions))};
 }
 
 ConnectionSettings connection_settings(const Properties& properties, const std::string& name) {
-  return {one_of<ConnectionTechnique>(properties, name,
-                                      {{"standard", ConnectionTechnique::kStandard},
-                                       {"equiangular", ConnectionTechnique::kEquiangular},
-                                       {"product", ConnectionTechnique::kProduct},
-                                       {"once_more", ConnectionTechnique::kOnceMore},
-                                       {"mis", ConnectionTechnique::kMis}}),
-          one_of<Insertion>(
-              properties, "sampling",
-              {{"angle", Insertion::kAngle}, {"seed", Insertion::kSolidAngle}, {"geometry", Insertion::kGeometry}})};
+  return {meaning(kTechniques, properties.string(name)), meaning(kInsertions, properties.string("sampling"))};
 }
 
 }  // namespace turbid

@@ -23,6 +23,10 @@ std::vector<Parameter> with_common_parameters(std::vector<Parameter> own, const 
 /// What the common parameters say. Throws SceneError.
 PathSettings path_settings(const Properties& properties);
 
+/// A parameter that is one of some words; `value`: the default.
+Parameter word(const std::string& name, const std::string& value, const std::string& meaning,
+               std::vector<std::string> choices);
+
 /// How collisions next to the other end of a path are found: the parameters `name` and `sampling`. `end`: what stands
 /// there, in words.
 std::vector<Parameter> connection_parameters(const std::string& name, const std::string& end);

@@ -140,23 +140,20 @@ float LightGatherer::hit_weight(const EmitterChoice& choice, const DirectLightSa
 template <class Scatter>
 void LightGatherer::estimate_direct(const Vec3& from, const PathState& state, const Traveller& traveller,
                                     const Scatter& scatter, const SurfaceEvent* surface) {
-  float u_light = sampler_.next_1d();
-  const Vec2 u = sampler_.next_2d();
-  const EmitterChoice choice = scene_.choose_emitter(u_light);
-  if (!choice.emitter || !settings_.order_counts(state.order)) return;
-  const auto light = choice.emitter->sample_direct(from, u);
-  if (!light) return;
-  const Bsdf::Eval scattered = scatter(light->wi);
+  const auto chosen = choose_end(from);
+  if (!chosen || !settings_.order_counts(state.order)) return;
+  const auto& [choice, light] = *chosen;
+  const Bsdf::Eval scattered = scatter(light.wi);
   if (scattered.value.is_black()) return;
-  const float share = share_of_walk(arrival_, choice, *light, light->delta ? 0 : scattered.pdf_w);
+  const float share = share_of_walk(arrival_, choice, light, light.delta ? 0 : scattered.pdf_w);
   if (share == 0) return;
 
   const Spectrum towards = state.throughput * scattered.value;
-  const Ray shadow = ray_to_light(*light, surface ? surface->point.leave(light->wi) : from);
+  const Ray shadow = ray_to_light(light, surface ? surface->point.leave(light.wi) : from);
   const Passage passage = traveller.look_along(shadow, towards, surface);
   if (passage.prob == 0) return;
-  const float weight = light->delta ? 1 : mis_weight(choice.prob * light->pdf_w, scattered.pdf_w * passage.prob);
-  add(state.order, towards * passage.transmittance * light->weight * (share * weight / choice.prob));
+  const float weight = light.delta ? 1 : mis_weight(choice.prob * light.pdf_w, scattered.pdf_w * passage.prob);
+  add(state.order, towards * passage.transmittance * light.weight * (share * weight / choice.prob));
 }
 
 float LightGatherer::share_of_walk(const Edge& arrival, const EmitterChoice& choice, const DirectLightSample& light,
@@ -171,12 +168,12 @@ float LightGatherer::share_of_walk(const Edge& arrival, const EmitterChoice& cho
 // --- collisions made for a light
 // --------------------------------------------------------------------------------------
 
-std::optional<LightGatherer::LightEnd> LightGatherer::choose_end(const Vec3& x0) {
+std::optional<LightGatherer::LightEnd> LightGatherer::choose_end(const Vec3& from) {
   float u_light = sampler_.next_1d();
   const Vec2 u = sampler_.next_2d();
   const EmitterChoice choice = scene_.choose_emitter(u_light);
   if (!choice.emitter) return std::nullopt;
-  const auto light = choice.emitter->sample_direct(x0, u);
+  const auto light = choice.emitter->sample_direct(from, u);
   if (!light) return std::nullopt;
   return LightEnd{choice, *light};
 }
@@ -189,7 +186,7 @@ void LightGatherer::insert_from(const Vertex& vertex, const PathState& state, co
   const Vec2 u = sampler_.next_2d();
   const float u_phi = sampler_.next_1d();
   if (!light || !may_insert(state)) return;
-  const PathEnd end = end_at(*light->choice.emitter, light->from_x0);
+  const PathEnd end = end_at(*light->choice.emitter, light->sample);
   const auto x1 = maker_.insert(from, end, u.x, u.y, u_phi);
   if (!x1) return;
   const Vertex::Scattering scattered = vertex.scatter(x1->arrives, TransportMode::kRadiance);
@@ -215,7 +212,7 @@ void LightGatherer::depart(const Departure& from, const PathState& state, const 
   const auto light = choose_end(from.position);
   const float u = sampler_.next_1d();
   if (!light || !may_insert(state) || state.throughput.is_black()) return;
-  const PathEnd end = end_at(*light->choice.emitter, light->from_x0);
+  const PathEnd end = end_at(*light->choice.emitter, light->sample);
   const Vec3& direction = traveller.ray().direction;
   const auto distance = maker_.march(from, direction, end, u);
   if (!distance) return;
@@ -233,20 +230,20 @@ void LightGatherer::depart(const Departure& from, const PathState& state, const 
 void LightGatherer::finish(const CollisionEvent& x1, const LightEnd& light, const Spectrum& arrived, double factor,
                            CollisionDensities all, double CollisionDensities::*own, const PathState& state) {
   const EmitterChoice& choice = light.choice;
-  const auto from_x1 = choice.emitter->seen_from(x1.position, light.from_x0);
+  const auto from_x1 = choice.emitter->seen_from(x1.position, light.sample);
   if (!from_x1) return;
-  const float f = x1.medium.phase().eval(dot(x1.direction, from_x1->wi));
+  const float f = x1.medium.phase().eval_angle(static_cast<float>(angle_between(x1.direction, from_x1->wi)));
   const Spectrum towards = arrived * x1.medium.sigma_s_at(x1.position) * f;
   if (towards.is_black()) return;
   if (maker_.weighs()) {
-    all.walk *= advantage_of_walk(choice.prob, light.from_x0, *from_x1, choice.emitter->can_be_hit() ? f : 0);
+    all.walk *= advantage_of_walk(choice.prob, light.sample, *from_x1, choice.emitter->can_be_hit() ? f : 0);
     factor *= ConnectionSampler::weight(all.*own, all);
   }
   const Passage passage =
       pass_straight(scene_, ray_to_light(*from_x1, x1.position), &x1.medium, towards, sampler_, counters_);
   if (passage.prob == 0) return;
   // The weight stands for a density at x1: it is turned into that with which x2 was chosen.
-  const double chosen = from_x1->delta ? 1 : static_cast<double>(from_x1->pdf_w) / pdf_at_x1(light.from_x0, *from_x1);
+  const double chosen = from_x1->delta ? 1 : static_cast<double>(from_x1->pdf_w) / pdf_at_x1(light.sample, *from_x1);
   const double weight = factor * chosen / static_cast<double>(choice.prob);
   add(state.order + 1, towards * passage.transmittance * from_x1->weight * static_cast<float>(weight));
 }

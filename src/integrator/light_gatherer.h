@@ -55,10 +55,10 @@ class LightGatherer : public WalkRecorder {
   void at_escape(const PathState& state, const Traveller& traveller);
 
  private:
-  /// A point of a light that was chosen from x0.
+  /// A point of a light, as the vertex sees it that it was chosen from.
   struct LightEnd {
     EmitterChoice choice;
-    DirectLightSample from_x0;
+    DirectLightSample sample;
   };
 
   /// Begins a new edge whose direction was chosen with density pdf_w; 0: no other technique can choose it.
@@ -97,7 +97,7 @@ class LightGatherer : public WalkRecorder {
   bool may_insert(const PathState& state) const {
     return state.depth + 2 <= settings_.max_depth && settings_.order_counts(state.order + 1);
   }
-  std::optional<LightEnd> choose_end(const Vec3& x0);
+  std::optional<LightEnd> choose_end(const Vec3& from);
   void insert_from(const Vertex& vertex, const PathState& state, const Traveller& traveller);
   void depart(const Departure& from, const PathState& state, const Traveller& traveller);
   void finish(const CollisionEvent& x1, const LightEnd& light, const Spectrum& arrived, double factor,

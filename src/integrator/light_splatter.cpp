@@ -139,7 +139,7 @@ void LightSplatter::depart(const Departure& from, const PathState& state, const 
   if (!way) return;
   const Passage passage = traveller.look_along({traveller.ray().origin, direction, distance->t}, state.throughput);
   if (!scatters_as_expected(from, passage)) return;
-  const float f = passage.medium->phase().eval(dot(direction, normalize(end.place - x1)));
+  const float f = passage.medium->phase().eval_angle(static_cast<float>(angle_between(direction, end.place - x1)));
   double factor = 1 / distance->pdf_t;
   if (maker_.weighs()) {
     const Edge edge{from, direction, distance->t, passage.medium->proxy_sigma_t(x1), passage.proxy};

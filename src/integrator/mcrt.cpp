@@ -161,10 +161,6 @@ Counters Mcrt::counters() const {
 
 namespace {
 
-Parameter word(const char* name, const char* value, const char* meaning, std::vector<std::string> choices) {
-  return {name, ParameterType::kString, value, meaning, {}, std::move(choices)};
-}
-
 std::vector<Parameter> parameters() {
   return with_common_parameters(
       {word("volumes", "spheres",

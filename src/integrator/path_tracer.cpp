@@ -54,13 +54,10 @@ IntegratorPlugin direct_row() {
 
 IntegratorPlugin volpath_row() {
   std::vector<Parameter> own = connection_parameters("nee", "light");
-  own.push_back({.name = "single_scattering",
-                 .type = ParameterType::kString,
-                 .default_text = "path",
-                 .meaning =
-                     "light that one smooth boundary of triangles bends before it scatters once: found by paths, "
-                     "or as singlescatter finds it",
-                 .choices = {"path", "refractive"}});
+  own.push_back(word("single_scattering", "path",
+                     "light that one smooth boundary of triangles bends before it scatters once: found by paths, or as "
+                     "singlescatter finds it",
+                     {"path", "refractive"}));
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
@@ -82,13 +79,10 @@ IntegratorPlugin single_scatter_row() {
       "volpath, with single scattering through smooth boundaries of triangles followed from the light: volume "
       "caustics of lights of any size",
       with_common_parameters(
-          {{.name = "method",
-            .type = ParameterType::kString,
-            .default_text = "triangle_intervals",
-            .meaning =
+          {word("method", "triangle_intervals",
                 "triangle_intervals (where each triangle's light meets the sensor's path), point_sampling (points of "
                 "it), straight_line (as if nothing bent light: wrong), none (left out, to see what it adds)",
-            .choices = {"triangle_intervals", "point_sampling", "straight_line", "none"}},
+                {"triangle_intervals", "point_sampling", "straight_line", "none"}),
            {"samples", ParameterType::kInteger, "1", "per triangle's interval, or points per segment of a path",
             kAtLeastOne},
            {"environments", ParameterType::kBoolean, "false",

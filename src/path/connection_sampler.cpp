@@ -72,16 +72,11 @@ struct RayBesideEnd {
 
 ConnectionSampler::ConnectionSampler(const Scene& scene, const ConnectionSettings& settings)
     : scene_(scene),
-      technique_(settings.technique),
-      insertion_(settings.insertion),
-      possible_(technique_ != ConnectionTechnique::kStandard && !scene.has_priorities()),
-      equiangular_(technique_ == ConnectionTechnique::kEquiangular),
-      inserts_(technique_ == ConnectionTechnique::kOnceMore || technique_ == ConnectionTechnique::kMis),
-      marches_open_(technique_ != ConnectionTechnique::kOnceMore),
-      marches_given_(true) {}
+      technique_(scene.has_priorities() ? ConnectionTechnique::kStandard : settings.technique),
+      insertion_(settings.insertion) {}
 
 const Medium* ConnectionSampler::expected(const Medium* around) const {
-  if (!possible_) return nullptr;
+  if (!active()) return nullptr;
   return around ? around : scene_.thinnest_medium();
 }
 
@@ -105,8 +100,9 @@ std::optional<ConnectionSampler::Distance> ConnectionSampler::march(const Depart
   const RayBesideEnd ray(from.position, direction, end);
   if (!(ray.from < ray.to)) return std::nullopt;
   const auto number = static_cast<double>(u);
-  const double theta = equiangular_ ? ray.from + number * (ray.to - ray.from)
-                                    : from.medium->phase().angles().sample_beyond(ray.from, number, ray.to);
+  const double theta = technique_ == ConnectionTechnique::kEquiangular
+                           ? ray.from + number * (ray.to - ray.from)
+                           : from.medium->phase().angles().sample_beyond(ray.from, number, ray.to);
   const auto t = static_cast<float>(ray.distance(theta));
   if (!(t > 0) || !std::isfinite(t * t)) return std::nullopt;
   const double pdf = pdf_t(from, direction, t, end);
@@ -121,8 +117,9 @@ double ConnectionSampler::pdf_t(const Departure& from, const Vec3& direction, fl
   const auto distance = static_cast<double>(t);
   const double theta = ray.theta(distance);
   if (theta < ray.from || theta > ray.to) return 0;
-  const double pdf_theta =
-      equiangular_ ? 1 / (ray.to - ray.from) : from.medium->phase().angles().pdf_beyond(ray.from, theta, ray.to);
+  const double pdf_theta = technique_ == ConnectionTechnique::kEquiangular
+                               ? 1 / (ray.to - ray.from)
+                               : from.medium->phase().angles().pdf_beyond(ray.from, theta, ray.to);
   return pdf_theta * ray.dtheta_dt(distance);
 }
 

@@ -66,11 +66,20 @@ class ConnectionSampler {
   /// The medium that collisions next to a vertex are expected in, which `around` fills the space at (null: vacuum; then
   /// the thinnest of the scene). Null where the walk alone makes them.
   const Medium* expected(const Medium* around) const;
+  /// The same next to a surface, which `around` fills the space in front of: that of one of its sides.
   const Medium* expected(const Object& object, const Medium* around) const;
 
-  bool inserts(const Departure& from) const { return from.medium && from.open && inserts_; }
-  bool marches(const Departure& from) const { return from.medium && (marches_open_ || (marches_given_ && !from.open)); }
+  /// Whether collisions are inserted from x0, and whether they are made along the ray that leaves it.
+  bool inserts(const Departure& from) const {
+    return from.medium && from.open &&
+           (technique_ == ConnectionTechnique::kOnceMore || technique_ == ConnectionTechnique::kMis);
+  }
+  bool marches(const Departure& from) const {
+    return from.medium && !(from.open && technique_ == ConnectionTechnique::kOnceMore);
+  }
 
+  /// Inserts a collision between x0 and the end, see insert_collision and insert_collision_towards; only where
+  /// inserts(). Takes three numbers.
   std::optional<InsertedCollision> insert(const Departure& from, const PathEnd& end, float u_theta, float u_beta,
                                           float u_phi) const;
 
@@ -78,10 +87,11 @@ class ConnectionSampler {
     float t = 0;       ///< from x0
     double pdf_t = 0;  ///< 1/length
   };
-  /// A distance along the ray that leaves x0 in `direction`. Empty where the other end lies at infinity.
+  /// A distance along the ray that leaves x0 in `direction` (unit); only where marches(). Takes one number. Empty where
+  /// the end lies at infinity, and where no place of the ray is in its cone.
   std::optional<Distance> march(const Departure& from, const Vec3& direction, const PathEnd& end, float u) const;
 
-  /// `inserted`: where that density is known.
+  /// With which densities x1, the end of the edge, would have been made. `inserted`: where that one is known.
   CollisionDensities densities(const Edge& edge, const PathEnd& end,
                                std::optional<double> inserted = std::nullopt) const;
 
@@ -98,10 +108,8 @@ class ConnectionSampler {
   double pdf_t(const Departure& from, const Vec3& direction, float t, const PathEnd& end) const;
 
   const Scene& scene_;
-  ConnectionTechnique technique_;
+  ConnectionTechnique technique_;  ///< kStandard in scenes with priorities
   Insertion insertion_;
-  bool possible_;  ///< not in scenes with priorities
-  bool equiangular_, inserts_, marches_open_, marches_given_;
 };
 
 }  // namespace turbid

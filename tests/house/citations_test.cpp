@@ -13,7 +13,7 @@ TEST(Citations, OfTheSourcesAreInTheBibliography) {
   const std::vector<Reference> bibliography = parse_bibliography(read_lines(kRoot / "docs/references.bib"));
   EXPECT_GE(bibliography.size(), 10u);
   size_t count = 0;
-  for (const SourceFile& file : source_files(kRoot, {"src", "bench"}))
+  for (const SourceFile& file : source_files(kRoot, {"src", "bench", "experiments"}))
     for (size_t i = 0; i < file.lines.size(); ++i)
       for (const Citation& citation : find_citations(file.lines[i])) {
         ++count;
