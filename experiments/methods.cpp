@@ -1,7 +1,5 @@
 #include "methods.h"
 
-#include <algorithm>
-
 #include "image/film_image.h"
 #include "image/metrics.h"
 #include "integrator/integrators.h"
@@ -27,18 +25,12 @@ Overrides overrides(const std::vector<std::string>& definitions) {
   return result;
 }
 
-template <class Value>
-Value median(std::vector<Value> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 Stage::Stage(const std::string& file, const std::vector<std::string>& definitions)
     : loaded_(load_scene(file, overrides(definitions))), scene_(std::move(loaded_.parts)) {}
 
-Stage::Shot Stage::render(const std::string& integrator, uint32_t samples, uint64_t seed) const {
+std::shared_ptr<Integrator> Stage::make(const std::string& integrator) const {
   Settings settings;
   size_t comma = integrator.find(',');
   const std::string type = integrator.substr(0, comma);
@@ -47,12 +39,16 @@ Stage::Shot Stage::render(const std::string& integrator, uint32_t samples, uint6
     settings.push_back(split(integrator.substr(comma + 1, next - comma - 1)));
     comma = next;
   }
-  const IntegratorSetup setup = make_integrator(replace_integrator(loaded_.integrator, type, settings).description);
+  return make_integrator(replace_integrator(loaded_.integrator, type, settings).description).integrator;
+}
+
+Stage::Shot Stage::render(const std::string& text, uint32_t samples, uint64_t seed) const {
+  const std::shared_ptr<Integrator> integrator = make(text);
   StopFlag stop;
-  setup.integrator->prepare(scene_, seed, stop);
-  Film film(scene_.film().image_size(), setup.integrator->layer_names());
+  integrator->prepare(scene_, seed, stop);
+  Film film(scene_.film().image_size(), integrator->layer_names());
   const double begin = process_cpu_seconds();
-  setup.integrator->render_pass(scene_, {seed, 0, samples}, film, stop);
+  integrator->render_pass(scene_, {seed, 0, samples}, film, stop);
   return {film_to_image(film, false), process_cpu_seconds() - begin};
 }
 

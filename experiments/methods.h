@@ -1,8 +1,11 @@
 #pragma once
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "image/image.h"
+#include "integrator/integrator.h"
 #include "scene/loader.h"
 
 namespace turbid::experiments {
@@ -13,11 +16,14 @@ class Stage {
   /// `definitions`: "name=value", parameters of the scene.
   Stage(const std::string& file, const std::vector<std::string>& definitions);
 
+  /// `integrator` as on the command line ("ptracer,camera_connection=mis").
+  std::shared_ptr<Integrator> make(const std::string& integrator) const;
+  const Scene& scene() const { return scene_; }
+
   struct Shot {
     Image image;
     double seconds = 0;  ///< processor time of all threads
   };
-  /// `integrator` as on the command line ("ptracer,camera_connection=mis").
   Shot render(const std::string& integrator, uint32_t samples, uint64_t seed) const;
 
  private:
@@ -35,6 +41,12 @@ struct Noise {
 };
 Noise measure_noise(const Stage& stage, const std::string& integrator, uint32_t samples, const Image& reference,
                     int seeds = 5);
+
+template <class Value>
+Value median(std::vector<Value> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
 
 /// The mean of an image's colours.
 double mean_of(const Image& image);

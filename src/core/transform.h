@@ -22,6 +22,7 @@ class Transform {
   static Transform look_at(const Imath::V3d& origin, const Imath::V3d& target, const Imath::V3d& up);
 
   Transform operator*(const Transform& right) const;
+  bool operator==(const Transform& other) const { return m_ == other.m_; }
   Transform inverse() const;
   double at(int row, int column) const { return m_[column][row]; }
 

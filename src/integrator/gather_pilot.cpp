@@ -8,12 +8,12 @@ namespace turbid {
 namespace {
 
 constexpr uint64_t kPilotStream = 0x71;
-constexpr double kHigh = 1, kLow = 0.1;
+constexpr double kHigh = 1, kLow = 0.25;  ///< not far apart: 1/q is the cost of an image
 
 /// Enough samples in all to see the difference of the variances, and of each pixel to see a variance.
 uint32_t image_count(const Scene& scene) {
-  constexpr size_t kSamples = size_t{1} << 17;
-  return static_cast<uint32_t>(std::clamp<size_t>(kSamples / pixel_count(scene.film()), 4, 256));
+  constexpr size_t kSamples = size_t{1} << 16;
+  return static_cast<uint32_t>(std::clamp<size_t>(kSamples / pixel_count(scene.film()), 2, 256));
 }
 
 QObservation observe(const Scene& scene, const PathSettings& path, McrtSettings own, double q, uint64_t seed,

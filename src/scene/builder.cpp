@@ -13,6 +13,9 @@ std::shared_ptr<const T> Builder::once(Cache<T>& cache, const Table& table, cons
 
 std::shared_ptr<const Bsdf> Builder::bsdf(const SceneNode& node) { return once<Bsdf>(bsdfs_, bsdf_table(), node); }
 std::shared_ptr<const Medium> Builder::medium(const SceneNode& node) {
+  // Media are told apart by their objects: fog that is written out on both sides of a boundary must be one.
+  for (const auto& [other, made] : media_)
+    if (describe_the_same(*other, node)) return made;
   return once<Medium>(media_, medium_table(), node);
 }
 std::shared_ptr<const PhaseFunction> Builder::phase(const SceneNode& node) {

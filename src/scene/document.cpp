@@ -1,5 +1,7 @@
 #include "scene/document.h"
 
+#include <algorithm>
+
 namespace turbid {
 
 const char* to_string(Category category) {
@@ -38,6 +40,17 @@ std::string describe_type(const Value& value) {
   static constexpr const char* kNames[] = {"a text",   "a boolean", "an integer", "a float",
                                            "a string", "a vector",  "a spectrum", "a transform"};
   return kNames[value.index()];
+}
+
+bool describe_the_same(const SceneNode& a, const SceneNode& b) {
+  const auto same_value = [](const NamedValue& v, const NamedValue& w) {
+    return v.name == w.name && v.value == w.value;
+  };
+  const auto same_child = [](const Child& v, const Child& w) {
+    return v.name == w.name && (v.node == w.node || describe_the_same(*v.node, *w.node));
+  };
+  return a.category == b.category && a.type == b.type && std::ranges::equal(a.values, b.values, same_value) &&
+         std::ranges::equal(a.children, b.children, same_child);
 }
 
 bool file_exists(const std::filesystem::path& path) {

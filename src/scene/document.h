@@ -35,6 +35,7 @@ const char* to_string(Category category);
 /// type the plugin declares.
 struct UntypedText {
   std::string text;
+  bool operator==(const UntypedText&) const = default;
 };
 
 /// A value in a scene file, typed by its tag: <boolean>, <integer>, <float>, <string>, <point> or <vector>, <rgb> or
@@ -76,6 +77,9 @@ struct SceneNode {
     return category == Category::kScene ? "the scene" : std::string(to_string(category)) + " '" + type + "'";
   }
 };
+
+/// Do the two describe one thing, wherever they stand and whatever id they have? Order counts.
+bool describe_the_same(const SceneNode& a, const SceneNode& b);
 
 /// Values of $variables given on the command line (-D name=value); they win over <default>.
 using Overrides = std::map<std::string, std::string>;

@@ -139,6 +139,22 @@ TEST(Loader, ReducedScatteringIsDividedByOneMinusG) {
   expect_near(first_medium(scene).sigma_t(), Spectrum(9.0f));
 }
 
+TEST(Loader, MediaThatAreDescribedAlikeAreOne) {
+  const auto fog = [](const std::string& name, const std::string& g) {
+    return "<medium name=\"" + name +
+           "\" type=\"homogeneous\"><rgb name=\"sigma_t\" value=\"1, 2, 3\"/><phase type=\"hg\">" +
+           "<float name=\"g\" value=\"" + g + "\"/></phase></medium>";
+  };
+  const auto shape = [](const std::string& media) {
+    return "<shape type=\"cube\"><bsdf type=\"null\"/>" + media + "</shape>";
+  };
+  const LoadedScene scene =
+      load(shape(fog("interior", "0.5")) + shape(fog("interior", "0.6") + fog("exterior", "0.5")));
+  const auto& objects = scene.parts.objects;
+  EXPECT_EQ(objects.at(0).interior, objects.at(1).exterior);
+  EXPECT_NE(objects.at(0).interior, objects.at(1).interior);
+}
+
 TEST(Loader, MeasuredMaterials) {
   const Material& wax = *find_material("S1 Wax");
   const LoadedScene scene = load_medium("<string name=\"material\" value=\"S1 Wax\"/>", "cm");
