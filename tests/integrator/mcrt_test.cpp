@@ -55,6 +55,16 @@ INSTANTIATE_TEST_SUITE_P(
                       QCase{"chromatic medium", "track", 32}, QCase{"heterogeneous medium", "track", 32}),
     [](const auto& instance) { return name_of(std::string(instance.param.scene) + "_" + instance.param.estimator); });
 
+/// Collisions in balls and flights through disks: both count the light at the centre, up to the square of the radius.
+TEST(McrtEstimators, CollisionsAndTracksAgree) {
+  const std::string& xml = suite_scene("lamp in fog, any length").xml;
+  const std::string how = "mcrt,q=0.05,radius=0.1,disk_scale=1,keep=1,estimator=";
+  const Observation track = observe(xml, {how + "track", 16, 1, 1}, 8);
+  const Agreement agreement = compare(track, observe(xml, {how + "collision", 24, 1, 2}, 8));
+  EXPECT_TRUE(agreement.accepted()) << agreement.report();
+  EXPECT_FALSE(compare(track, observe(xml, {how + "collision", 24, 1.1, 3}, 8)).accepted()) << "a tenth must show";
+}
+
 /// A box of fog: its lights are those of the suite.
 std::string fog_box(const std::string& medium) {
   return scene(kLamp + kFloor + R"(<shape type="cube"><transform name="to_world"><translate x="0.1" y="0.1" z="1.1"/>
