@@ -18,6 +18,14 @@ std::pair<std::string, std::string> split(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+template <class Value>
+Value median(std::vector<Value> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
 Overrides overrides(const std::vector<std::string>& definitions) {
   Overrides result;
   for (const std::string& definition : definitions) {
@@ -26,14 +34,6 @@ Overrides overrides(const std::vector<std::string>& definitions) {
   }
   return result;
 }
-
-template <class Value>
-Value median(std::vector<Value> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-}  // namespace
 
 Stage::Stage(const std::string& file, const std::vector<std::string>& definitions)
     : loaded_(load_scene(file, overrides(definitions))), scene_(std::move(loaded_.parts)) {}
