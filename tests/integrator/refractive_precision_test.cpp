@@ -37,11 +37,11 @@ std::vector<Precision> seen_from_within(uint32_t effort, double largest_error) {
   const auto by_light = [&](const std::string& name, const std::string& xml, uint32_t samples, uint32_t followed) {
     return Precision{name, xml, 3, "ptracer", samples * effort, followed * effort, largest_error};
   };
-  return {by_light("bumpy_sphere", scene(far + bumpy(murky), "", camera_inside(0.3f)), 96, 2),
-          by_light("bumpy_sphere_point_light", scene(point + bumpy(murky), "", camera_inside(0.3f)), 96, 2),
-          by_light("sphere", scene(far + sphere(murky), "", camera_inside(0.3f)), 96, 2),
-          by_light("slab", scene(far + slab(murky), "", camera_inside(0.3f)), 96, 16),
-          by_light("uneven_bumpy_sphere", scene(far + bumpy(kGlass + uneven()), "", camera_inside(0.3f)), 96, 4),
+  return {by_light("bumpy_sphere", scene(far + bumpy(murky), "", camera_inside(0.3f)), 48, 1),
+          by_light("bumpy_sphere_point_light", scene(point + bumpy(murky), "", camera_inside(0.3f)), 48, 1),
+          by_light("sphere", scene(far + sphere(murky), "", camera_inside(0.3f)), 48, 1),
+          by_light("slab", scene(far + slab(murky), "", camera_inside(0.3f)), 48, 8),
+          by_light("uneven_bumpy_sphere", scene(far + bumpy(kGlass + uneven()), "", camera_inside(0.3f)), 48, 2),
           by_light("lamp_in_glass", scene(in_fog(near), "", kPinholeInMedium), 8, 1)};
 }
 
@@ -69,7 +69,12 @@ PassStatistics observe(const Precision& p, const std::string& integrator, uint32
       for (size_t c = 0; c < kChannels; ++c) film.pixel(i).radiance[c] *= brightness;
     result.add(film);
   }
-  EXPECT_EQ(rendering.counters()["dropped_samples"], 0u);
+  Counters counters = rendering.counters();
+  EXPECT_EQ(counters["dropped_samples"], 0u);
+  // Light that the solver gives up on is rare, next to the critical angle, too.
+  constexpr double kLeftOut = 2e-3;
+  EXPECT_LE(static_cast<double>(counters["unresolved_triangles"]),
+            kLeftOut * static_cast<double>(counters["refractive_paths"]));
   return result;
 }
 
@@ -88,12 +93,12 @@ void expect_precise(const Precision& p, int block) {
 
 class RefractivePrecision : public ::testing::TestWithParam<Precision> {};
 TEST_P(RefractivePrecision, SeenFromWithin) { expect_precise(GetParam(), 8); }
-INSTANTIATE_TEST_SUITE_P(Scenes, RefractivePrecision, ::testing::ValuesIn(seen_from_within(1, 0.03)),
+INSTANTIATE_TEST_SUITE_P(Scenes, RefractivePrecision, ::testing::ValuesIn(seen_from_within(1, 0.045)),
                          [](const auto& instance) { return instance.param.name; });
 
 class SlowRefractivePrecision : public ::testing::TestWithParam<Precision> {};
 TEST_P(SlowRefractivePrecision, Agrees) { expect_precise(GetParam(), 16); }
-INSTANTIATE_TEST_SUITE_P(FromWithin, SlowRefractivePrecision, ::testing::ValuesIn(seen_from_within(16, 0.007)),
+INSTANTIATE_TEST_SUITE_P(FromWithin, SlowRefractivePrecision, ::testing::ValuesIn(seen_from_within(24, 0.008)),
                          [](const auto& instance) { return instance.param.name; });
 INSTANTIATE_TEST_SUITE_P(FromWithout, SlowRefractivePrecision, ::testing::ValuesIn(seen_from_without(4, 0.01)),
                          [](const auto& instance) { return instance.param.name; });

@@ -134,19 +134,39 @@ TEST(RefractiveScattering, KeepsToTheOrdersAndDepthsThatAreAskedFor) {
   EXPECT_EQ(light(integer("max_depth", 3)), 0);
 }
 
-TEST(RefractiveScattering, TakesMeshesWithHolesAndTurnedTriangles) {
-  const TemporaryFolder folder;
-  const std::string file = folder.file("broken.obj");
-  std::ofstream(file) << "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 5 4\n"
-                         "f 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\n";
-  const std::string broken = "<shape type=\"obj\"><string name=\"filename\" value=\"" + file +
-                             "\"/><transform name=\"to_world\"><translate z=\"1\"/></transform>" + kGlass + clear() +
-                             "</shape>";
-  const Film film = render_text(scene(kPoint + kFloor + broken, integer("max_depth", 6)), 4);
+/// What singlescatter says while it prepares for a mesh in a file, and that it renders it.
+std::string words_about(const std::string& type, const std::string& file) {
+  const std::string shape = "<shape type=\"" + type + "\"><string name=\"filename\" value=\"" + file +
+                            "\"/><transform name=\"to_world\"><translate z=\"1\"/></transform>" + kGlass + clear() +
+                            "</shape>";
+  ::testing::internal::CaptureStderr();
+  Rendering rendering(scene(kPoint + kFloor + shape, integer("max_depth", 6)), "singlescatter", {});
+  const Film film = rendering.pass(1, 0, 8);
+  std::string words = ::testing::internal::GetCapturedStderr();
   EXPECT_GT(mean_of(film).grey(), 0);
-  Rendering rendering(scene(kPoint + kFloor + broken, integer("max_depth", 6)), "singlescatter", {});
-  rendering.pass(1, 0, 8);
   EXPECT_EQ(rendering.counters()["dropped_samples"], 0u);
+  return words;
+}
+
+TEST(RefractiveScattering, WarnsOfHolesAndTurnedTriangles) {
+  const TemporaryFolder folder;
+  const std::string vertices = "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\n";
+  const std::string seven = "f 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\n";
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder.file(name)) << text;
+    return folder.file(name);
+  };
+  const std::string warning = "has holes or turned triangles";
+  const auto warned = [&](const std::string& words) { return words.find(warning) != std::string::npos; };
+  EXPECT_FALSE(warned(words_about("obj", write("whole.obj", vertices + seven + "f 1 4 6\n"))));
+  EXPECT_TRUE(warned(words_about("obj", write("hole.obj", vertices + seven))));
+  EXPECT_TRUE(warned(words_about("obj", write("turned.obj", vertices + seven + "f 4 1 6\n"))));
+  EXPECT_TRUE(warned(
+      words_about("ply", write("hole.ply",
+                               "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+                               "property float z\nelement face 7\nproperty list uchar int vertex_indices\nend_header\n"
+                               "1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n3 0 2 4\n3 2 1 4\n3 1 3 4\n3 3 0 4\n"
+                               "3 2 0 5\n3 1 2 5\n3 3 5 1\n"))));
 }
 
 /// At length, with a smaller lamp.
