@@ -60,6 +60,30 @@ void figure_3(const std::string& scenes, const std::string& plot) {
   fmt::print("written to {0}.csv and {0}.svg\n", plot);
 }
 
+/// Fig. 8 without the noise of pixels: the same camera rays by all methods, against many samples of the first.
+void same_rays(const std::string& scenes) {
+  const Flights flights = ball(scenes, 4);
+  const std::vector<double> reference = flights.render({.samples = 64}, 99).values;
+  const double peak = *std::max_element(reference.begin(), reference.end());
+  fmt::print("\n{} camera rays of the bumpy ball of 5,120 triangles, the same for all\n\n", reference.size());
+  fmt::print(
+      "| method | us per ray | mean / reference | PSNR | MSE x s, relative |\n| --- | --- | --- | --- | --- |\n");
+  double first = 0;
+  const auto show = [&](const std::string& name, const RefractiveSettings& settings) {
+    const Flights::Rendering r = flights.render(settings, 1);
+    const double error = mean_square_difference(r.values, reference), cost = error * r.seconds;
+    if (first == 0) first = cost;
+    fmt::print("| {} | {:.0f} | {:.4f} | {:.1f} dB | {:.3g} |\n", name, 1e6 * r.seconds,
+               mean_of(r.values) / mean_of(reference), 10 * std::log10(sqr(peak) / error), cost / first);
+    std::fflush(stdout);
+  };
+  show("triangle intervals", {});
+  show("triangle intervals, midpoint", {.in_middle = true});
+  for (const int samples : {1, 4, 16, 64, 256})
+    show(fmt::format("point sampling, {} points", samples),
+         {.method = RefractiveMethod::kPointSampling, .samples = samples});
+}
+
 /// Fig. 10: time of a camera ray by the number of triangles.
 void figure_10(const std::string& scenes) {
   const auto measure = [](const std::string& name, size_t count, const auto& flights_of) {
@@ -166,8 +190,10 @@ int run(int argc, char** argv) {
   set_log_level(LogLevel::kQuiet);
   with_pictures(subcommand("fig1", "bumpy ball, equal time", [&] { print_equal_time(contest, false); }));
   with_pictures(subcommand("fig6", "statue, equal time", [&] { print_equal_time(contest, true); }));
+  subcommand("rays", "fig8 without the noise of pixels", [&] { same_rays(contest.scenes); });
   with_pictures(subcommand("fig8", "bumpy ball, the others a factor longer", [&] {
     print_equal_quality(contest, factor);
+    same_rays(contest.scenes);
   }))->add_option("--factor", factor, "of time");
   subcommand("fig3", "radiance along a ray", [&] {
     figure_3(contest.scenes, plot);
