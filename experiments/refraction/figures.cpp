@@ -1,4 +1,4 @@
-// Single scattering through refractive boundaries: the figures of Holzschuch 2013 as tables and plots.
+// Single scattering through refractive boundaries: the figures of S4 as tables and plots.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -170,7 +170,7 @@ void figure_13(const std::string& scenes) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Refractive single scattering: the figures of Holzschuch 2013 as tables and plots");
+  CLI::App app("Refractive single scattering: the figures of S4 as tables and plots");
   app.require_subcommand(1);
   app.fallthrough();
   ContestSettings contest;
