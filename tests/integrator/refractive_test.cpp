@@ -33,8 +33,8 @@ std::vector<Comparison> comparisons(float lamp_radius) {
       {"coarse_glass", scene(far + kFloor + octahedron("<scale value=\"0.9\"/><translate z=\"1\"/>", murky), depth), 8,
        128},
       {"camera_in_bumpy_sphere", scene(far + kFloor + bumpy(murky), depth, camera_inside()), 4},
-      {"lamp_in_glass_in_fog", scene(around + near + kFloor + bumpy(kGlass + fog_outside), depth), 2, 256},
-      {"lamp_in_murky_glass_in_fog", scene(around + near + kFloor + bumpy(murky + fog_outside), depth), 2, 256, 0.15},
+      {"lamp_in_glass_in_fog", scene(around + near + kFloor + bumpy(kGlass + fog_outside), depth), 1, 64},
+      {"lamp_in_murky_glass_in_fog", scene(around + near + kFloor + bumpy(murky + fog_outside), depth), 1, 64, 0.15},
       {"camera_and_lamp_in_glass", scene(around + near + kFloor + bumpy(murky + fog_outside), depth, camera_inside()),
        2, 128},
       {"sky", scene(kSky + kFloor + bumpy(murky), depth), 8}};
