@@ -16,6 +16,8 @@ std::pair<std::string, std::string> split(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+}  // namespace
+
 Overrides overrides(const std::vector<std::string>& definitions) {
   Overrides result;
   for (const std::string& definition : definitions) {
@@ -24,8 +26,6 @@ Overrides overrides(const std::vector<std::string>& definitions) {
   }
   return result;
 }
-
-}  // namespace
 
 Stage::Stage(const std::string& file, const std::vector<std::string>& definitions)
     : loaded_(load_scene(file, overrides(definitions))), scene_(std::move(loaded_.parts)) {}

@@ -10,6 +10,9 @@
 
 namespace turbid::experiments {
 
+/// Scene parameters from texts "name=value".
+Overrides overrides(const std::vector<std::string>& definitions);
+
 /// A scene that several integrators render, in this process.
 class Stage {
  public:
