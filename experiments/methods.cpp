@@ -53,7 +53,7 @@ Stage::Shot Stage::render(const std::string& integrator, uint32_t samples, uint6
   Film film(scene_.film().image_size(), setup.integrator->layer_names());
   const double begin = process_cpu_seconds();
   setup.integrator->render_pass(scene_, {seed, 0, samples}, film, stop);
-  return {film_to_image(film, false), process_cpu_seconds() - begin};
+  return {film_to_image(film, false), process_cpu_seconds() - begin, setup.integrator->counters()};
 }
 
 Noise measure_noise(const Stage& stage, const std::string& integrator, uint32_t samples, const Image& reference,

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "image/image.h"
+#include "integrator/integrator.h"
 #include "scene/loader.h"
 
 namespace turbid::experiments {
@@ -16,6 +17,7 @@ class Stage {
   struct Shot {
     Image image;
     double seconds = 0;  ///< processor time of all threads
+    Counters counters;
   };
   /// `integrator` as on the command line ("ptracer,camera_connection=mis").
   Shot render(const std::string& integrator, uint32_t samples, uint64_t seed) const;

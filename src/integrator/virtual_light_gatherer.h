@@ -1,0 +1,95 @@
+#pragma once
+#include "integrator/light_gatherer.h"
+#include "manylight/light_sampler.h"
+#include "manylight/shading_recorder.h"
+#include "manylight/volume_points.h"
+
+namespace turbid {
+
+/// What shading by virtual lights needs to know, the same at all places.
+struct ShadingPlan {
+  const Scene& scene;
+  const PathSettings& path;
+  LineSettings lines;
+  VolumePoints volume_points;
+  int light_samples = 8;  ///< lights asked for at each place; 0: all
+};
+
+/// What one light brings to a place, with what stands between; black where nothing comes. `traveller` stands at the
+/// place.
+Spectrum shadowed(const Scatterer& place, const Scatterer& light, const LineSettings& lines,
+                  const Traveller& traveller);
+
+/// Recorder of walks from the sensor that virtual lights shade (see ShadingRecorder). At each place that it shades it
+/// asks for lights by next-event estimation, and for virtual lights; lights that it meets by chance share with the
+/// former as in `volpath`.
+class VirtualLightGatherer : public ShadingRecorder {
+ public:
+  /// `chooser` null: every light is asked.
+  VirtualLightGatherer(Kind kind, const ShadingPlan& plan, const VirtualLights& lights, LightSampler::Chooser* chooser,
+                       Sampler& sampler, SampleCounters& counters)
+      : ShadingRecorder(kind),
+        plan_(plan),
+        lights_(lights),
+        chooser_(chooser),
+        sampler_(sampler),
+        counters_(counters) {}
+
+  void begin() {
+    ShadingRecorder::begin();
+    direct_.emplace(plan_.scene, plan_.path, ConnectionSettings{}, nullptr, sampler_, counters_);
+    for (Spectrum& light : by_order_) light = Spectrum(0.0f);
+  }
+  /// What was found since, by class of order (kOrderClasses).
+  Spectrum found(int order) const { return by_order_[order] + direct_->result().by_order[order]; }
+
+  void on_passage(const Ray& way, const Medium& medium, const PathState& state, const Traveller& traveller) {
+    make_collisions(way, medium, state, plan_.path.max_depth, plan_.volume_points, sampler_,
+                    [&](const CollisionEvent& event, const PathState& at) { shade(event, at, traveller); });
+  }
+  void passed_medium(const Spectrum& proxy) { direct_->passed_medium(proxy); }
+  void passed_surface(const Spectrum& through) { direct_->passed_surface(through); }
+  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+    if (shades()) shade(event, state, traveller);
+  }
+  void left_collision(const CollisionEvent& event, float mu, const Vec3& chosen, const PathState& state,
+                      const Traveller& traveller) {
+    direct_->left_collision(event, mu, chosen, state, traveller);
+    ShadingRecorder::left_collision(event, mu, chosen, state, traveller);
+  }
+  void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
+    if (!shades() || !(event.object.bsdf->flags() & lobe::kSmooth)) return;
+    direct_->at_surface(event, state, traveller);
+    ask_virtual_lights(Vertex(event, state, traveller.medium()), traveller);
+  }
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
+                    const Traveller& traveller) {
+    direct_->left_surface(event, sample, chosen, state, traveller);
+    ShadingRecorder::left_surface(event, sample, chosen, state, traveller);
+  }
+  void at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
+                const Traveller& traveller) {
+    if (!leaves_to_other()) direct_->at_light(hit, object, point, state, traveller);
+  }
+  void at_escape(const PathState& state, const Traveller& traveller) {
+    if (!leaves_to_other()) direct_->at_escape(state, traveller);
+  }
+
+ private:
+  void shade(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+    direct_->at_collision(event, state, traveller);
+    ask_virtual_lights(Vertex(event, state), traveller);
+  }
+  void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
+  void add(const Scatterer& place, const Scatterer& light, double factor, const Traveller& traveller);
+
+  const ShadingPlan& plan_;
+  const VirtualLights& lights_;
+  LightSampler::Chooser* chooser_;
+  Sampler& sampler_;
+  SampleCounters& counters_;
+  std::optional<LightGatherer> direct_;
+  Spectrum by_order_[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
+};
+
+}  // namespace turbid
