@@ -7,10 +7,12 @@ namespace turbid {
 /// Stops at the first place of the kind that is asked for.
 class CachePlacer::Recorder : public ShadingRecorder {
  public:
-  Recorder(const CachePlacer& owner, bool surface, std::span<float> weights, Sampler& sampler, SampleCounters& counters)
+  Recorder(const CachePlacer& owner, PlaceKind kind, std::span<float> weights, Sampler& sampler,
+           SampleCounters& counters)
       : ShadingRecorder(Kind::kPasses),
         owner_(owner),
-        surface_(surface),
+        lines_(owner.lights_, owner.plan_.lines, sampler),
+        kind_(kind),
         weights_(weights),
         sampler_(sampler),
         counters_(counters) {}
@@ -18,13 +20,19 @@ class CachePlacer::Recorder : public ShadingRecorder {
   const ImportanceCache::Record& result() const { return result_; }
 
   void on_passage(const Ray& way, const Medium& medium, const PathState& state, const Traveller& traveller) {
-    if (surface_ || result_.valid) return;
-    const VolumePoints one{1, owner_.plan_.volume_points.by_transmittance};
-    make_collisions(way, medium, state, owner_.plan_.path.max_depth, one, sampler_,
-                    [&](const CollisionEvent& event, const PathState& at) { record(Vertex(event, at), traveller); });
+    if (result_.valid || !(way.t_max > 0) || !std::isfinite(way.t_max)) return;
+    if (kind_ == PlaceKind::kCollision) {
+      const VolumePoints one{1, owner_.plan_.volume_points.by_transmittance};
+      make_collisions(way, medium, state, owner_.plan_.path.max_depth, one, sampler_,
+                      [&](const CollisionEvent& event, const PathState& at) { record(Vertex(event, at), traveller); });
+    } else if (kind_ == PlaceKind::kWay) {
+      const CollisionSegment whole = CollisionSegment::of_sensor(way, medium, state);
+      record({way.origin, way.direction, true},
+             [&](size_t light, Rng& rng) { return lines_.to_way(whole, light, rng, traveller); });
+    }
   }
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
-    if (surface_ && !result_.valid && shades() && event.object.bsdf->flags() & lobe::kSmooth)
+    if (kind_ == PlaceKind::kSurface && !result_.valid && shades() && event.object.bsdf->flags() & lobe::kSmooth)
       record(Vertex(event, state, traveller.medium()), traveller);
   }
   bool goes_on() const { return !result_.valid && ShadingRecorder::goes_on(); }
@@ -32,22 +40,27 @@ class CachePlacer::Recorder : public ShadingRecorder {
  private:
   void record(const Vertex& vertex, const Traveller& traveller) {
     const Scatterer place(vertex, TransportMode::kRadiance);
-    const auto& lights = owner_.lights_.points();
-    for (size_t i = 0; i < lights.size(); ++i)
-      weights_[i] = shadowed(place, lights[i], owner_.plan_.lines, traveller).mean();
-    counters_.connections += lights.size();
-    result_ = {vertex.position, place.normal(), true};
+    record({vertex.position, vertex.is_surface() ? place.normal() : Vec3(0), true},
+           [&](size_t light, Rng& rng) { return lines_.to_place(place, light, rng, traveller); });
+  }
+  template <class Bring>
+  void record(const ImportanceCache::Record& where, const Bring& bring) {
+    Rng rng = sampler_.aside(where.position, where.direction);
+    for (size_t light = 0; light < weights_.size(); ++light) weights_[light] = bring(light, rng).mean();
+    counters_.connections += weights_.size();
+    result_ = where;
   }
 
   const CachePlacer& owner_;
-  bool surface_;
+  LightLines lines_;
+  PlaceKind kind_;
   std::span<float> weights_;
   Sampler& sampler_;
   SampleCounters& counters_;
   ImportanceCache::Record result_;
 };
 
-ImportanceCache::Record CachePlacer::record(bool surface, size_t number, std::span<float> weights,
+ImportanceCache::Record CachePlacer::record(PlaceKind kind, size_t number, std::span<float> weights,
                                             SampleCounters& counters) const {
   constexpr uint64_t kMostTries = 16;  // walks that find no such place
   const Scene& scene = plan_.scene;
@@ -59,7 +72,7 @@ ImportanceCache::Record CachePlacer::record(bool surface, size_t number, std::sp
                       static_cast<int>(pixels.next_float() * static_cast<float>(size.y)));
     const SensorRay camera =
         start_camera_sample(scene, pixel + scene.film().crop_offset, number * kMostTries + attempt, sampler);
-    Recorder recorder(*this, surface, weights, sampler, counters);
+    Recorder recorder(*this, kind, weights, sampler, counters);
     CameraWalk<Recorder> walk(scene, plan_.path, sampler, counters, recorder);
     walk.run(camera);
     if (recorder.result().valid) return recorder.result();

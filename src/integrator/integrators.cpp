@@ -2,10 +2,10 @@
 
 #include "integrator/aov.h"
 #include "integrator/bdpt.h"
+#include "integrator/many_lights.h"
 #include "integrator/mcrt.h"
 #include "integrator/particle_tracer.h"
 #include "integrator/path_tracer.h"
-#include "integrator/vpl.h"
 
 namespace turbid {
 namespace {
@@ -35,7 +35,7 @@ IntegratorTable make_table() {
   return IntegratorTable(
       Category::kIntegrator,
       {path_row(), direct_row(), volpath_row(), single_scatter_row(), particle_tracer_row(), bdpt_row(), mcrt_row(),
-       vpl_row(), moment_row(), aov_row()},
+       vpl_row(), vrl_row(), moment_row(), aov_row()},
       {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective"},
       advice_for_old_names());
 }

@@ -12,13 +12,33 @@ struct ShadingPlan {
   const PathSettings& path;
   LineSettings lines;
   VolumePoints volume_points;
-  int light_samples = 8;  ///< lights asked for at each place; 0: all
+  int light_samples = 8;  ///< lights asked for at each place
+  /// Lights shade whole ways of the sensor's walk at once (ray lights); volume_points are then for lights asked for
+  /// directly.
+  bool rays = false;
 };
 
-/// What one light brings to a place, with what stands between; black where nothing comes. `traveller` stands at the
-/// place.
-Spectrum shadowed(const Scatterer& place, const Scatterer& light, const LineSettings& lines,
-                  const Traveller& traveller);
+/// Estimates of what one virtual light brings to places, with what stands between; black where nothing comes. For point
+/// lights at a place there is nothing to draw.
+class LightLines {
+ public:
+  LightLines(const VirtualLights& lights, const LineSettings& settings, const Sampler& sampler)
+      : lights_(lights), settings_(settings), sampler_(sampler) {}
+
+  /// `traveller` stands at the place.
+  Spectrum to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const;
+  /// To all places of the way together. `traveller` stands at its beginning.
+  Spectrum to_way(const CollisionSegment& way, size_t light, Rng& rng, const Traveller& traveller) const;
+  /// Collisions behind the light's end of the line.
+  int order(size_t light) const;
+
+ private:
+  Spectrum shadowed(const Scatterer& place, const Scatterer& light, const Traveller& traveller) const;
+
+  const VirtualLights& lights_;
+  const LineSettings& settings_;
+  const Sampler& sampler_;
+};
 
 /// Recorder of walks from the sensor that virtual lights shade (see ShadingRecorder). At each place that it shades it
 /// asks for lights by next-event estimation, and for virtual lights; lights that it meets by chance share with the
@@ -31,6 +51,7 @@ class VirtualLightGatherer : public ShadingRecorder {
       : ShadingRecorder(kind),
         plan_(plan),
         lights_(lights),
+        lines_(lights, plan.lines, sampler),
         chooser_(chooser),
         sampler_(sampler),
         counters_(counters) {}
@@ -43,10 +64,7 @@ class VirtualLightGatherer : public ShadingRecorder {
   /// What was found since, by class of order (kOrderClasses).
   Spectrum found(int order) const { return by_order_[order] + direct_->result().by_order[order]; }
 
-  void on_passage(const Ray& way, const Medium& medium, const PathState& state, const Traveller& traveller) {
-    make_collisions(way, medium, state, plan_.path.max_depth, plan_.volume_points, sampler_,
-                    [&](const CollisionEvent& event, const PathState& at) { shade(event, at, traveller); });
-  }
+  void on_passage(const Ray& way, const Medium& medium, const PathState& state, const Traveller& traveller);
   void passed_medium(const Spectrum& proxy) { direct_->passed_medium(proxy); }
   void passed_surface(const Spectrum& through) { direct_->passed_surface(through); }
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
@@ -81,10 +99,14 @@ class VirtualLightGatherer : public ShadingRecorder {
     ask_virtual_lights(Vertex(event, state), traveller);
   }
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
-  void add(const Scatterer& place, const Scatterer& light, double factor, const Traveller& traveller);
+  void ask_along(const CollisionSegment& way, const Traveller& traveller);
+  /// Asks all lights, or those that the chooser draws, for bring(light, rng).
+  template <class Bring>
+  void ask(int order, Rng rng, const Bring& bring);
 
   const ShadingPlan& plan_;
   const VirtualLights& lights_;
+  LightLines lines_;
   LightSampler::Chooser* chooser_;
   Sampler& sampler_;
   SampleCounters& counters_;

@@ -33,7 +33,7 @@ class CompactDistributions {
   static size_t bytes_for(size_t rows, size_t lights);
 
  private:
-  static constexpr size_t kBlock = 128;  ///< lights under one partial sum
+  static constexpr size_t kBlock = 64;  ///< lights under one partial sum
   static size_t blocks_of(size_t lights) { return (lights + kBlock - 1) / kBlock; }
   static uint64_t value(uint8_t code);
   uint8_t code(size_t row, size_t light) const { return codes_[row * lights_ + light]; }

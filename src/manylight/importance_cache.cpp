@@ -1,13 +1,11 @@
 #include "manylight/importance_cache.h"
 
+#include <numeric>
+
 #include "core/parallel.h"
 
 namespace turbid {
 namespace {
-
-KdTree<6>::Point with_normal(const Vec3& p, const Vec3& n, float spacing) {
-  return {p.x, p.y, p.z, n.x * spacing, n.y * spacing, n.z * spacing};
-}
 
 size_t points_that_fit(const CacheSettings& settings, size_t lights) {
   return settings.memory / std::max<size_t>(1, CompactDistributions::bytes_for(1, lights));
@@ -15,54 +13,54 @@ size_t points_that_fit(const CacheSettings& settings, size_t lights) {
 
 }  // namespace
 
-ImportanceCache::ImportanceCache(const CacheSettings& settings, size_t lights, float spacing, const Recorder& record)
-    : lights_(lights), nearest_(std::clamp<size_t>(settings.nearest, 1, kMostNearest)), spacing_(spacing) {
-  size_t surface = settings.surface_points, count = surface + settings.volume_points;
-  if (const size_t fit = points_that_fit(settings, lights); count > fit) {
-    cut_ = true;
-    surface = surface * fit / count;
-    count = fit;
+ImportanceCache::ImportanceCache(const CacheSettings& settings, size_t lights,
+                                 const std::array<float, kPlaceKinds>& spacing, const Recorder& record)
+    : lights_(lights), nearest_(std::clamp<size_t>(settings.nearest, 1, kMostNearest)) {
+  std::vector<PlaceKind> kinds;
+  const size_t asked = std::accumulate(settings.points.begin(), settings.points.end(), size_t{0});
+  const size_t fit = points_that_fit(settings, lights);
+  cut_ = asked > fit;
+  for (size_t k = 0; k < kPlaceKinds; ++k) {
+    kinds_[k].spacing = spacing[k];
+    const size_t count = cut_ ? settings.points[k] * fit / asked : settings.points[k];
+    kinds.insert(kinds.end(), count, static_cast<PlaceKind>(k));
   }
-  rows_ = CompactDistributions(count, lights);
-  std::vector<Record> records(count);
-  parallel_for(count, [&](size_t i) {
+  rows_ = CompactDistributions(kinds.size(), lights);
+  std::vector<Record> records(kinds.size());
+  parallel_for(kinds.size(), [&](size_t i) {
     thread_local std::vector<float> weights;
     weights.assign(lights, 0.0f);
-    records[i] = record(i < surface, i, weights);
+    records[i] = record(kinds[i], i, weights);
     if (records[i].valid) rows_.set(i, weights);
   });
-  std::vector<KdTree<6>::Point> on_surfaces;
-  std::vector<KdTree<3>::Point> in_volumes;
-  for (size_t i = 0; i < count; ++i) {
+  std::array<std::vector<Tree::Point>, kPlaceKinds> places;
+  for (size_t i = 0; i < kinds.size(); ++i) {
     if (!records[i].valid) continue;
-    const Vec3& p = records[i].position;
-    (i < surface ? surfaces_ : volumes_).rows.push_back(static_cast<uint32_t>(i));
-    if (i < surface)
-      on_surfaces.push_back(with_normal(p, records[i].normal, spacing_));
-    else
-      in_volumes.push_back({p.x, p.y, p.z});
+    const auto k = static_cast<size_t>(kinds[i]);
+    kinds_[k].rows.push_back(static_cast<uint32_t>(i));
+    places[k].push_back(kinds_[k].where(records[i].position, records[i].direction));
   }
-  surface_tree_ = KdTree<6>(std::move(on_surfaces));
-  volume_tree_ = KdTree<3>(std::move(in_volumes));
+  for (size_t k = 0; k < kPlaceKinds; ++k) kinds_[k].tree = Tree(std::move(places[k]));
 }
 
-ImportanceCache::Mixture ImportanceCache::mixture_at(const Scatterer& place) const {
-  const Vec3& p = place.position();
+size_t ImportanceCache::points() const {
+  size_t count = 0;
+  for (const Kind& kind : kinds_) count += kind.rows.size();
+  return count;
+}
+
+ImportanceCache::Mixture ImportanceCache::mixture_at(PlaceKind kind, const Vec3& position,
+                                                     const Vec3& direction) const {
+  const Kind& points = kinds_[static_cast<size_t>(kind)];
   Mixture mixture;
-  const auto take = [&](const auto& tree, const Points& points, const auto& where) {
-    std::array<typename std::remove_cvref_t<decltype(tree)>::Neighbour, kMostNearest> found;
-    mixture.count = tree.nearest(where, std::span(found.data(), nearest_));
-    for (size_t m = 0; m < mixture.count; ++m) {
-      mixture.rows[m] = points.rows[found[m].index];
-      // Relative to the nearest, so that no distance, however small, overflows.
-      const double nearest = std::max(static_cast<double>(found[0].distance2), 1e-30);
-      mixture.weights[m] = nearest / std::max(static_cast<double>(found[m].distance2), 1e-30);
-    }
-  };
-  if (place.is_surface())
-    take(surface_tree_, surfaces_, with_normal(p, place.normal(), spacing_));
-  else
-    take(volume_tree_, volumes_, KdTree<3>::Point{p.x, p.y, p.z});
+  std::array<Tree::Neighbour, kMostNearest> found;
+  mixture.count = points.tree.nearest(points.where(position, direction), std::span(found.data(), nearest_));
+  for (size_t m = 0; m < mixture.count; ++m) {
+    mixture.rows[m] = points.rows[found[m].index];
+    // Relative to the nearest, so that no distance, however small, overflows.
+    const double nearest = std::max(static_cast<double>(found[0].distance2), 1e-30);
+    mixture.weights[m] = nearest / std::max(static_cast<double>(found[m].distance2), 1e-30);
+  }
   if (mixture.count == 0) return mixture;
   double sum = 0;
   for (size_t m = 0; m < mixture.count; ++m) sum += mixture.weights[m];
@@ -82,7 +80,11 @@ class ImportanceCache::MixtureChooser final : public LightSampler::Chooser {
  public:
   explicit MixtureChooser(const ImportanceCache& cache) : cache_(cache) {}
 
-  void move_to(const Scatterer& place) override { mixture_ = cache_.mixture_at(place); }
+  void move_to(const Scatterer& place) override {
+    mixture_ = place.is_surface() ? cache_.mixture_at(PlaceKind::kSurface, place.position(), place.normal())
+                                  : cache_.mixture_at(PlaceKind::kCollision, place.position(), Vec3(0));
+  }
+  void move_along(const Ray& way) override { mixture_ = cache_.mixture_at(PlaceKind::kWay, way.origin, way.direction); }
 
   std::optional<LightChoice> sample(double u) const override {
     if (cache_.lights_ == 0) return std::nullopt;

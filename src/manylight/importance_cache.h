@@ -7,10 +7,15 @@
 
 namespace turbid {
 
-/// What distributes light at places of one kind (surfaces, or collisions), recorded at some of them and mixed at others
-/// from those nearby (S2 sect. 4; for surfaces Georgiev et al. 2012, importance caching).
+/// Places of each kind have cache points of their own: what lights bring to a surface depends on its side, to a whole
+/// way on where it leads (S2 Fig. 4).
+enum class PlaceKind : uint8_t { kSurface, kCollision, kWay };
+inline constexpr size_t kPlaceKinds = 3;
+
+/// What lights bring to places, recorded at some of them and mixed at others from those nearby (S2 sect. 4; for
+/// surfaces Georgiev et al. 2012, importance caching).
 struct CacheSettings {
-  size_t surface_points = 1000, volume_points = 1000;
+  std::array<size_t, kPlaceKinds> points = {1000, 1000, 0};
   size_t nearest = 3;                 ///< M, at most ImportanceCache::kMostNearest
   size_t memory = size_t{512} << 20;  ///< bytes, at most; above, fewer points are recorded
 };
@@ -27,18 +32,20 @@ class ImportanceCache final : public LightSampler {
 
   /// Records one point: fills in what each light brings to it (any scale). `number` names its random numbers.
   struct Record {
-    Vec3 position, normal{0};
+    Vec3 position{0};   ///< of ways: where they begin
+    Vec3 direction{0};  ///< of surfaces the normal, of ways where they lead; collisions: zero
     bool valid = false;
   };
-  using Recorder = std::function<Record(bool surface, size_t number, std::span<float> weights)>;
+  using Recorder = std::function<Record(PlaceKind kind, size_t number, std::span<float> weights)>;
 
-  /// Asks `record` for every point, from all threads. `spacing`: the distance that counts as much as a right angle
-  /// between normals.
-  ImportanceCache(const CacheSettings& settings, size_t lights, float spacing, const Recorder& record);
+  /// Asks `record` for every point, from all threads. `spacing`: by kind, the distance that counts as much as a right
+  /// angle between directions.
+  ImportanceCache(const CacheSettings& settings, size_t lights, const std::array<float, kPlaceKinds>& spacing,
+                  const Recorder& record);
 
   std::unique_ptr<Chooser> make_chooser() const override;
 
-  size_t points() const { return surfaces_.size() + volumes_.size(); }
+  size_t points() const;
   size_t bytes() const { return rows_.bytes(); }
   /// Fewer points fit into the memory than were asked for.
   bool is_cut() const { return cut_; }
@@ -50,23 +57,26 @@ class ImportanceCache final : public LightSampler {
     std::array<double, kMostNearest> weights;
     double uniform = 1;
   };
-  Mixture mixture_at(const Scatterer& place) const;
+  Mixture mixture_at(PlaceKind kind, const Vec3& position, const Vec3& direction) const;
   const CompactDistributions& rows() const { return rows_; }
 
  private:
   class MixtureChooser;
-  struct Points {
+  using Tree = KdTree<6>;  ///< positions, and directions times spacing: |n - n'|^2 = 2 (1 - n.n')
+  struct Kind {
+    float spacing = 0;
     std::vector<uint32_t> rows;
-    size_t size() const { return rows.size(); }
+    Tree tree;
+
+    Tree::Point where(const Vec3& p, const Vec3& d) const {
+      return {p.x, p.y, p.z, d.x * spacing, d.y * spacing, d.z * spacing};
+    }
   };
 
   size_t lights_, nearest_;
-  float spacing_;
   bool cut_ = false;
   CompactDistributions rows_;
-  Points surfaces_, volumes_;
-  KdTree<6> surface_tree_;  ///< positions, and normals times spacing: |n - n'|^2 = 2 (1 - n.n')
-  KdTree<3> volume_tree_;
+  std::array<Kind, kPlaceKinds> kinds_;
 };
 
 }  // namespace turbid

@@ -50,6 +50,8 @@ class LightSampler {
     virtual ~Chooser() = default;
     /// The place stays where it is until the next one.
     virtual void move_to(const Scatterer& place) = 0;
+    /// The same for a whole way of the sensor's walk. Unless said otherwise the choice is the same everywhere.
+    virtual void move_along(const Ray& /*way*/) {}
     /// Takes a number in [0, 1). Empty where no light can bring anything.
     virtual std::optional<LightChoice> sample(double u) const = 0;
     /// The probability with which sample() returns this light.

@@ -19,14 +19,15 @@ FoggyBox& box() {
 /// A cache whose records are what lights would bring without shadows, where `dark` says so none.
 std::unique_ptr<LightSampler> make_cache(const VirtualLights& places, size_t dark = 1000) {
   CacheSettings settings;
-  settings.surface_points = settings.volume_points = places.size();
+  settings.points = {places.size(), places.size(), 0};
   return std::make_unique<ImportanceCache>(
-      settings, box().lights.size(), 0.1f, [&, dark](bool surface, size_t number, std::span<float> weights) {
+      settings, box().lights.size(), std::array{0.1f, 0.0f, 0.0f},
+      [&, dark](PlaceKind kind, size_t number, std::span<float> weights) {
         const Scatterer& place = places.points()[number % places.size()];
-        if (place.is_surface() != surface) return ImportanceCache::Record{};
+        if (place.is_surface() != (kind == PlaceKind::kSurface)) return ImportanceCache::Record{};
         for (size_t i = 0; i < weights.size(); ++i)
           weights[i] = number % dark == dark - 1 ? 0 : unshadowed(place, box().lights.points()[i], {}).mean();
-        return ImportanceCache::Record{place.position(), place.normal(), true};
+        return ImportanceCache::Record{place.position(), place.is_surface() ? place.normal() : Vec3(0), true};
       });
 }
 
@@ -149,10 +150,10 @@ TEST(CompactDistributions, TakeAByteForEachLight) {
 
 TEST(ImportanceCache, TakesNoMoreMemoryThanItMay) {
   CacheSettings settings;
-  settings.surface_points = settings.volume_points = 500;
+  settings.points = {500, 500, 0};
   settings.memory = 300'000;
   size_t asked = 0;
-  const ImportanceCache cache(settings, 1000, 1, [&](bool, size_t, std::span<float> weights) {
+  const ImportanceCache cache(settings, 1000, {1, 1, 1}, [&](PlaceKind, size_t, std::span<float> weights) {
     weights[0] = 1;
     return ImportanceCache::Record{Vec3(static_cast<float>(asked++)), Vec3(0), true};
   });

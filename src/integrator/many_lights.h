@@ -6,10 +6,11 @@
 
 namespace turbid {
 
-/// What `vpl` is told beside the common parameters.
-struct VplSettings {
+/// What `vpl` and `vrl` are told beside the common parameters.
+struct ManyLightsSettings {
   enum class Sampler { kAll, kUniform, kPower, kUnshadowed, kImportanceCache, kLightTree };
   Sampler sampler = Sampler::kImportanceCache;
+  bool rays = false;      ///< ray lights instead of points where light collides
   size_t lights = 1000;   ///< about so many in a set
   int reuse = 16;         ///< samples of the pixels that share a set
   int light_samples = 8;  ///< see ShadingPlan
@@ -18,16 +19,16 @@ struct VplSettings {
   CacheSettings caches;
 };
 
-/// Rendering by virtual point lights (Keller 1997) in scenes with media: light paths leave lights where they scatter,
-/// and these shade what the sensor sees; lights seen there directly are asked for by next-event estimation. Each set of
-/// lights makes an unbiased image; a render takes a new set after every `reuse` samples. Chooses among lights by
-/// importance caching (S2) or in simpler ways.
+/// Rendering by virtual point lights (Keller 1997) and ray lights (Novak et al. 2012): light paths leave lights where
+/// they scatter, or could, and these shade what the sensor sees; lights seen there directly are asked for by next-event
+/// estimation. Each set of lights makes an unbiased image; a render takes a new set after every `reuse` samples.
+/// Chooses among lights by importance caching (S2) or in simpler ways.
 ///
 /// What it cannot sample: beams and glowing media, delta lights seen in or through specular vertices next to what they
-/// light. Unclamped, a light next to what it shades has no variance.
-class VirtualPointLights : public SplattingIntegrator {
+/// light. Unclamped, a point light next to what it shades has no variance.
+class ManyLights : public SplattingIntegrator {
  public:
-  VirtualPointLights(const PathSettings& path, const VplSettings& own) : path_(path), own_(own) {}
+  ManyLights(const PathSettings& path, const ManyLightsSettings& own) : path_(path), own_(own) {}
 
   /// Nothing is splatted: no pilot finds the scale of splats.
   void prepare(const Scene& scene, uint64_t, const StopFlag&) override { prepare_workers(scene); }
@@ -45,7 +46,7 @@ class VirtualPointLights : public SplattingIntegrator {
   std::unique_ptr<LightSampler> make_caches(const Scene& scene, uint64_t seed, uint64_t set, const StopFlag& stop);
 
   PathSettings path_;
-  VplSettings own_;
+  ManyLightsSettings own_;
   std::optional<LightSources> sources_;
   std::optional<ShadingPlan> plan_;
 
@@ -64,7 +65,8 @@ class VirtualPointLights : public SplattingIntegrator {
   double cache_seconds_ = 0;
 };
 
-/// Row of the integrator table: `vpl`.
+/// Rows of the integrator table: `vpl`, `vrl`.
 IntegratorPlugin vpl_row();
+IntegratorPlugin vrl_row();
 
 }  // namespace turbid
