@@ -2,7 +2,9 @@
 
 #include "core/rng.h"
 #include "core/warp.h"
+#include "manylight/segment_pairs.h"
 #include "manylight/virtual_lights.h"
+#include "medium/homogeneous.h"
 #include "scene/loader.h"
 
 /// What a virtual ray light brings to a way of the sensor's walk, and a point light to a place, without the shadow ray.
@@ -42,6 +44,25 @@ void segment_pair(benchmark::State& state) {
 }
 BENCHMARK(segment_pair)->Arg(0)->Arg(80);
 
+/// The same by vectors: many lights for one segment of the sensor.
+void segment_pairs_by_vectors(benchmark::State& state) {
+  static const Pairs pairs;
+  const float g = static_cast<float>(state.range(0)) / 100;
+  std::vector<PairRequest> requests;
+  for (size_t i = 0; i < Pairs::kCount; ++i) {
+    const float u = (static_cast<float>(i * 37 % Pairs::kCount) + 0.5f) / Pairs::kCount;
+    requests.push_back({&pairs.lights[i], g, {u, 1 - u}});
+  }
+  std::vector<SegmentPair> found(Pairs::kCount);
+  size_t i = 0;
+  for (auto _ : state) {
+    sample_pairs(requests, pairs.sensors[i++ % Pairs::kCount], g, found);
+    benchmark::DoNotOptimize(found.data());
+  }
+  state.SetItemsProcessed(static_cast<int64_t>(state.iterations() * Pairs::kCount));
+}
+BENCHMARK(segment_pairs_by_vectors)->Arg(0)->Arg(80);
+
 /// The whole value but for the shadow ray: places, transmittances, phase functions.
 void ray_light_pair(benchmark::State& state) {
   static const Pairs pairs;
@@ -61,19 +82,21 @@ void ray_light_pair(benchmark::State& state) {
   Sampler sampler(SamplerKind::kIndependent, 1);
   sampler.start(0, 0);
   const LineSettings settings;
-  size_t i = 0;
-  float u = 0.1f;
-  for (auto _ : state) {
-    u = u < 0.9f ? u + 0.037f : 0.01f;
-    const CollisionSegment &light = lights[i], &way = ways[i * 7 % Pairs::kCount];
-    const SegmentPair pair = sample_pair(light.way(), way.way(), {light.g(), way.g()}, {u, 1 - u});
-    const Vertex here = way.place_at(pair.on_sensor, 1, sampler),
-                 there = light.place_at(pair.on_light, pair.pdf, sampler);
-    benchmark::DoNotOptimize(
-        unshadowed(Scatterer(here, TransportMode::kRadiance), Scatterer(there, TransportMode::kImportance), settings));
-    i = (i + 1) % Pairs::kCount;
+  std::vector<PairRequest> requests;
+  for (size_t i = 0; i < Pairs::kCount; ++i) {
+    const float u = (static_cast<float>(i * 37 % Pairs::kCount) + 0.5f) / Pairs::kCount;
+    requests.push_back({&lights[i].way(), g, {u, 1 - u}});
   }
-  state.SetItemsProcessed(static_cast<int64_t>(state.iterations()));
+  std::vector<SegmentPair> found(Pairs::kCount);
+  size_t k = 0;
+  for (auto _ : state) {
+    const CollisionSegment& way = ways[k++ % Pairs::kCount];
+    sample_pairs(requests, way.way(), way.g(), found);
+    for (size_t i = 0; i < Pairs::kCount; ++i)
+      benchmark::DoNotOptimize(unshadowed(way.place_at(found[i].on_sensor, 1, sampler),
+                                          lights[i].place_at(found[i].on_light, found[i].pdf, sampler), settings));
+  }
+  state.SetItemsProcessed(static_cast<int64_t>(state.iterations() * Pairs::kCount));
 }
 BENCHMARK(ray_light_pair)->Arg(0)->Arg(80);
 

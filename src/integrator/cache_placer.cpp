@@ -26,9 +26,15 @@ class CachePlacer::Recorder : public ShadingRecorder {
       make_collisions(way, medium, state, owner_.plan_.path.max_depth, one, sampler_,
                       [&](const CollisionEvent& event, const PathState& at) { record(Vertex(event, at), traveller); });
     } else if (kind_ == PlaceKind::kWay) {
-      const CollisionSegment whole = CollisionSegment::of_sensor(way, medium, state);
-      record({way.origin, way.direction, true},
-             [&](size_t light, Rng& rng) { return lines_.to_way(whole, light, rng, traveller); });
+      Rng rng = sampler_.aside(way.origin, way.direction);
+      std::vector<LightLines::Request> all(weights_.size());
+      for (size_t light = 0; light < all.size(); ++light) {
+        const float u = rng.next_float();
+        all[light] = {light, {u, rng.next_float()}};
+      }
+      lines_.to_way(CollisionSegment::of_sensor(way, medium, state), all, traveller,
+                    [&](size_t light, const Spectrum& value) { weights_[light] = value.mean(); });
+      finish({way.origin, way.direction, true});
     }
   }
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
@@ -40,13 +46,12 @@ class CachePlacer::Recorder : public ShadingRecorder {
  private:
   void record(const Vertex& vertex, const Traveller& traveller) {
     const Scatterer place(vertex, TransportMode::kRadiance);
-    record({vertex.position, vertex.is_surface() ? place.normal() : Vec3(0), true},
-           [&](size_t light, Rng& rng) { return lines_.to_place(place, light, rng, traveller); });
+    Rng rng = sampler_.aside(vertex.position, vertex.given);
+    for (size_t light = 0; light < weights_.size(); ++light)
+      weights_[light] = lines_.to_place(place, light, rng, traveller).mean();
+    finish({vertex.position, vertex.is_surface() ? place.normal() : Vec3(0), true});
   }
-  template <class Bring>
-  void record(const ImportanceCache::Record& where, const Bring& bring) {
-    Rng rng = sampler_.aside(where.position, where.direction);
-    for (size_t light = 0; light < weights_.size(); ++light) weights_[light] = bring(light, rng).mean();
+  void finish(const ImportanceCache::Record& where) {
     counters_.connections += weights_.size();
     result_ = where;
   }

@@ -1,7 +1,5 @@
 #include "integrator/virtual_light_gatherer.h"
 
-#include "path/join.h"
-
 namespace turbid {
 
 // --- lines -----------------------------------------------------------------------------------------------------------
@@ -9,9 +7,11 @@ namespace turbid {
 Spectrum LightLines::shadowed(const Scatterer& place, const Scatterer& light, const Traveller& traveller) const {
   const Spectrum value = unshadowed(place, light, settings_);
   if (value.is_black()) return value;
-  const Vertex &here = place.vertex(), &there = light.vertex();
   const Vec3 wi = normalize(light.position() - place.position());
-  return value * look_along(traveller, here, line_between(here.leave(wi), there.leave(-wi))).transmittance;
+  const Ray line = line_between(place.leave(wi), light.leave(-wi));
+  if (!place.is_surface()) return value * traveller.look_along(line, Spectrum(1.0f)).transmittance;
+  const SurfaceEvent surface = *place.vertex().surface_event();
+  return value * traveller.look_along(line, Spectrum(1.0f), &surface).transmittance;
 }
 
 Spectrum LightLines::to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const {
@@ -20,26 +20,38 @@ Spectrum LightLines::to_place(const Scatterer& place, size_t light, Rng& rng, co
   const CollisionSegment& ray = lights_.rays()[light - points];
   const PlaceOnSegment at = place_towards(ray.way(), place.position(), ray.g(), rng.next_float());
   if (!(at.pdf_t > 0)) return Spectrum(0.0f);
-  const Vertex vertex = ray.place_at(at.t, at.pdf_t, sampler_);
-  return shadowed(place, Scatterer(vertex, TransportMode::kImportance), traveller);
+  return shadowed(place, ray.place_at(at.t, at.pdf_t, sampler_), traveller);
 }
 
-Spectrum LightLines::to_way(const CollisionSegment& way, size_t light, Rng& rng, const Traveller& traveller) const {
+void LightLines::draw_pairs(const CollisionSegment& way, std::span<const Request> batch,
+                            std::array<SegmentPair, kBatch>& pairs) const {
+  std::array<PairRequest, kBatch> requests;
+  std::array<SegmentPair, kBatch> found;
   const size_t points = lights_.points().size();
-  if (light < points) {
-    const Scatterer& point = lights_.points()[light];
-    const PlaceOnSegment at = place_towards(way.way(), point.position(), way.g(), rng.next_float());
+  size_t count = 0;
+  for (const Request& request : batch)
+    if (request.light >= points) {
+      const CollisionSegment& ray = lights_.rays()[request.light - points];
+      requests[count++] = {&ray.way(), ray.g(), request.u};
+    }
+  sample_pairs({requests.data(), count}, way.way(), way.g(), {found.data(), count});
+  for (size_t i = batch.size(); i-- > 0;)
+    if (batch[i].light >= points) pairs[i] = found[--count];
+}
+
+Spectrum LightLines::to_way(const CollisionSegment& way, const Request& request, const SegmentPair& pair,
+                            const Traveller& traveller) const {
+  const size_t points = lights_.points().size();
+  if (request.light < points) {
+    const Scatterer& point = lights_.points()[request.light];
+    const PlaceOnSegment at = place_towards(way.way(), point.position(), way.g(), request.u.x);
     if (!(at.pdf_t > 0)) return Spectrum(0.0f);
-    const Vertex vertex = way.place_at(at.t, at.pdf_t, sampler_);
-    return shadowed(Scatterer(vertex, TransportMode::kRadiance), point, traveller);
+    return shadowed(way.place_at(at.t, at.pdf_t, sampler_), point, traveller);
   }
-  const CollisionSegment& ray = lights_.rays()[light - points];
-  const float u = rng.next_float();
-  const SegmentPair pair = sample_pair(ray.way(), way.way(), {ray.g(), way.g()}, {u, rng.next_float()});
   if (!(pair.pdf > 0)) return Spectrum(0.0f);
-  const Vertex here = way.place_at(pair.on_sensor, 1, sampler_),
-               there = ray.place_at(pair.on_light, pair.pdf, sampler_);
-  return shadowed(Scatterer(here, TransportMode::kRadiance), Scatterer(there, TransportMode::kImportance), traveller);
+  const CollisionSegment& ray = lights_.rays()[request.light - points];
+  return shadowed(way.place_at(pair.on_sensor, 1, sampler_), ray.place_at(pair.on_light, pair.pdf, sampler_),
+                  traveller);
 }
 
 int LightLines::order(size_t light) const {
@@ -64,25 +76,22 @@ void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, cons
   ask_along(CollisionSegment::of_sensor(way, medium, state), traveller);
 }
 
-template <class Bring>
-void VirtualLightGatherer::ask(int order, Rng rng, const Bring& bring) {
-  const auto add = [&](size_t light, double factor) {
-    const int of_path = order + lines_.order(light);
-    const bool counts = plan_.path.order_counts(of_path);
-    // Numbers of its own, so that whether it counts changes nothing else.
+template <class Ask>
+void VirtualLightGatherer::choose_lights(int order, Rng rng, const Ask& ask) {
+  const auto choose = [&](size_t light, double factor) {
     Rng own = lights_.rays().empty() ? rng : Rng(hash_counters(rng.next_u32(), rng.next_u32()));
-    if (!counts) return;
+    if (!plan_.path.order_counts(order + lines_.order(light))) return;
     ++counters_.connections;
-    by_order_[std::min(of_path, kOrderClasses - 1)] += bring(light, own) * static_cast<float>(factor);
+    ask(light, static_cast<float>(factor), own);
   };
   if (!chooser_) {
-    for (size_t light = 0; light < lights_.size(); ++light) add(light, 1);
+    for (size_t light = 0; light < lights_.size(); ++light) choose(light, 1);
     return;
   }
   const double samples = plan_.light_samples;
   for (int i = 0; i < plan_.light_samples; ++i) {
     const auto choice = chooser_->sample((i + rng.next_double()) / samples);
-    if (choice) add(choice->light, 1 / (choice->prob * samples));
+    if (choice) choose(choice->light, 1 / (choice->prob * samples));
   }
 }
 
@@ -90,15 +99,26 @@ void VirtualLightGatherer::ask_virtual_lights(const Vertex& vertex, const Travel
   if (lights_.empty() || vertex.throughput.is_black()) return;
   const Scatterer place(vertex, TransportMode::kRadiance);
   if (chooser_) chooser_->move_to(place);
-  ask(place.order(), sampler_.aside(vertex.position, vertex.given),
-      [&](size_t light, Rng& rng) { return lines_.to_place(place, light, rng, traveller); });
+  choose_lights(place.order(), sampler_.aside(vertex.position, vertex.given),
+                [&](size_t light, float factor, Rng& rng) {
+                  add(place.order() + lines_.order(light), lines_.to_place(place, light, rng, traveller) * factor);
+                });
 }
 
 void VirtualLightGatherer::ask_along(const CollisionSegment& way, const Traveller& traveller) {
   if (lights_.empty()) return;
   if (chooser_) chooser_->move_along(way.way());
-  ask(way.order(), sampler_.aside(way.way().origin, way.way().direction),
-      [&](size_t light, Rng& rng) { return lines_.to_way(way, light, rng, traveller); });
+  requests_.clear();
+  factors_.clear();
+  choose_lights(way.order(), sampler_.aside(way.way().origin, way.way().direction),
+                [&](size_t light, float factor, Rng& rng) {
+                  const float u = rng.next_float();
+                  requests_.push_back({light, {u, rng.next_float()}});
+                  factors_.push_back(factor);
+                });
+  lines_.to_way(way, requests_, traveller, [&](size_t i, const Spectrum& value) {
+    add(way.order() + lines_.order(requests_[i].light), value * factors_[i]);
+  });
 }
 
 }  // namespace turbid

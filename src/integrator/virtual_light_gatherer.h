@@ -1,6 +1,7 @@
 #pragma once
 #include "integrator/light_gatherer.h"
 #include "manylight/light_sampler.h"
+#include "manylight/segment_pairs.h"
 #include "manylight/shading_recorder.h"
 #include "manylight/volume_points.h"
 
@@ -27,12 +28,33 @@ class LightLines {
 
   /// `traveller` stands at the place.
   Spectrum to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const;
-  /// To all places of the way together. `traveller` stands at its beginning.
-  Spectrum to_way(const CollisionSegment& way, size_t light, Rng& rng, const Traveller& traveller) const;
+  /// A light, and the numbers that places are drawn from for it.
+  struct Request {
+    size_t light;
+    Vec2 u;
+  };
+  /// To all places of a way together, for many lights; calls take(i, value) for each. `traveller` stands at its
+  /// beginning.
+  template <class Take>
+  void to_way(const CollisionSegment& way, std::span<const Request> requests, const Traveller& traveller,
+              const Take& take) const {
+    std::array<SegmentPair, kBatch> pairs;
+    for (size_t begin = 0; begin < requests.size(); begin += kBatch) {
+      const auto batch = requests.subspan(begin, std::min(kBatch, requests.size() - begin));
+      draw_pairs(way, batch, pairs);
+      for (size_t i = 0; i < batch.size(); ++i) take(begin + i, to_way(way, batch[i], pairs[i], traveller));
+    }
+  }
   /// Collisions behind the light's end of the line.
   int order(size_t light) const;
 
  private:
+  static constexpr size_t kBatch = 64;
+  void draw_pairs(const CollisionSegment& way, std::span<const Request> batch,
+                  std::array<SegmentPair, kBatch>& pairs) const;
+  /// `pair`: of ray lights.
+  Spectrum to_way(const CollisionSegment& way, const Request& request, const SegmentPair& pair,
+                  const Traveller& traveller) const;
   Spectrum shadowed(const Scatterer& place, const Scatterer& light, const Traveller& traveller) const;
 
   const VirtualLights& lights_;
@@ -100,9 +122,11 @@ class VirtualLightGatherer : public ShadingRecorder {
   }
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
   void ask_along(const CollisionSegment& way, const Traveller& traveller);
-  /// Asks all lights, or those that the chooser draws, for bring(light, rng).
-  template <class Bring>
-  void ask(int order, Rng rng, const Bring& bring);
+  /// Calls ask(light, factor, rng) for all lights, or for those that the chooser draws. The numbers of each are its
+  /// own, so that it changes nothing else whether it counts.
+  template <class Ask>
+  void choose_lights(int order, Rng rng, const Ask& ask);
+  void add(int order, const Spectrum& value) { by_order_[std::min(order, kOrderClasses - 1)] += value; }
 
   const ShadingPlan& plan_;
   const VirtualLights& lights_;
@@ -111,6 +135,8 @@ class VirtualLightGatherer : public ShadingRecorder {
   Sampler& sampler_;
   SampleCounters& counters_;
   std::optional<LightGatherer> direct_;
+  std::vector<LightLines::Request> requests_;
+  std::vector<float> factors_;
   Spectrum by_order_[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
 };
 

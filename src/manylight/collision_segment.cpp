@@ -24,16 +24,16 @@ CollisionSegment CollisionSegment::of_light(const Ray& way, const HomogeneousMed
   return segment;
 }
 
-Vertex CollisionSegment::place_at(float t, double pdf_t, const Sampler& sampler) const {
+Scatterer CollisionSegment::place_at(float t, double pdf_t, const Sampler& sampler) const {
   const CollisionEvent event{way_.at(t), way_.direction, *medium_};
   Spectrum arrives = medium_->transmittance({way_.origin, way_.direction, t}, sampler);
   if (from_light_) {
     const float survives = (mix_ * arrives).sum();
     arrives = survives > 0 ? arrives / survives : Spectrum(0.0f);
   }
-  return Vertex(event,
-                PathState{throughput_ * arrives * medium_->sigma_s_at(event.position) * static_cast<float>(1 / pdf_t),
-                          depth_, order_});
+  return Scatterer(
+      event, PathState{throughput_ * arrives * medium_->sigma_s_at(event.position) * static_cast<float>(1 / pdf_t),
+                       depth_, order_});
 }
 
 }  // namespace turbid

@@ -1,12 +1,12 @@
 #pragma once
+#include "manylight/scatterer.h"
 #include "manylight/segment_pair.h"
 #include "path/passage.h"
-#include "path/vertex.h"
 
 namespace turbid {
 
 /// A way through a medium on which a walk could collide anywhere: of a light path a virtual ray light (Novak et al.
-/// 2012), of a walk from the sensor a way that is shaded. place_at() makes the vertex at one place of it.
+/// 2012), of a walk from the sensor a way that is shaded. place_at() makes a collision at one place of it.
 class CollisionSegment {
  public:
   /// A way of the sensor's walk: `state` holds the path up to its beginning.
@@ -20,13 +20,13 @@ class CollisionSegment {
   const Medium& medium() const { return *medium_; }
   /// Mean cosine of the phase function; for densities.
   float g() const { return g_; }
-  int depth() const { return depth_; }  ///< of the vertex at a place of it
+  int depth() const { return depth_; }  ///< of a collision on it
   int order() const { return order_; }
 
-  /// The vertex of a collision at distance t, with what the walk brings to it per length; times 1 / (density of t).
+  /// A collision at distance t, with what the walk brings to it per length; times 1 / (density of t).
   /// From a light: flux x sigma_s x T_i(t) / sum mix_j T_j(t), for the segment ends at t or before with the rest of the
   /// probability. From the sensor: throughput x T(t) x sigma_s. `sampler`: for media that vary.
-  Vertex place_at(float t, double pdf_t, const Sampler& sampler) const;
+  Scatterer place_at(float t, double pdf_t, const Sampler& sampler) const;
 
  private:
   CollisionSegment() = default;

@@ -11,9 +11,25 @@ class Scatterer {
  public:
   /// The vertex must stay where it is.
   Scatterer(const Vertex& vertex, TransportMode mode);
+  /// A collision that was made, of a walk from either end.
+  Scatterer(const CollisionEvent& event, const PathState& state)
+      : position_(event.position),
+        normal_(0),
+        other_normal_(0),
+        given_(-event.direction),
+        scale_(state.throughput),
+        phase_(&event.medium.phase()),
+        vertex_(nullptr),
+        depth_(state.depth),
+        order_(state.order),
+        kind_(Kind::kCollision),
+        mode_(TransportMode::kRadiance) {}
 
   const Vec3& position() const { return position_; }
+  /// Only of surfaces, and of collisions made from one.
   const Vertex& vertex() const { return *vertex_; }
+  /// Where lines in this direction start.
+  Vec3 leave(const Vec3& direction) const { return is_surface() ? vertex_->point.leave(direction) : position_; }
   int depth() const { return depth_; }
   int order() const { return order_; }
   bool is_surface() const { return kind_ != Kind::kCollision; }

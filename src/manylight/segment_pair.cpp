@@ -16,6 +16,12 @@ inline float lobe_of(float g, float mu) {
   return 1 / (base * std::sqrt(base));
 }
 
+/// e^asinh(x); sums of like signs, so that no digit is lost.
+inline float exp_asinh(float x) {
+  const float sum = std::abs(x) + std::sqrt(x * x + 1);
+  return x < 0 ? 1 / sum : sum;
+}
+
 /// acos for weights (Abramowitz and Stegun, 4.4.45): within 7e-5.
 inline float rough_acos(float c) {
   const float a = std::min(std::abs(c), 1.0f);
@@ -123,8 +129,8 @@ class LightMap {
     const Vec3 gap = from - sensor.direction * dot(from, sensor.direction);
     h2_ = std::max(length_squared(gap), sqr(1e-6f * std::max(light.t_max, 1e-20f)));
     scale_ = std::sqrt(sine2_ / h2_);
-    begin_ = std::asinh(-nearest_ * scale_);
-    range_ = std::asinh((light.t_max - nearest_) * scale_) - begin_;
+    begin_ = exp_asinh(-nearest_ * scale_);
+    range_ = std::log(exp_asinh((light.t_max - nearest_) * scale_) / begin_);
     // Seen from far away all places are alike, and the difference would lose its digits.
     constexpr float kLeastRange = 0.05f;
     flat_ = parallel || !(range_ > kLeastRange);
@@ -137,14 +143,15 @@ class LightMap {
     return {t, static_cast<double>(at.pdf) * density(t)};
   }
   double pdf(float t) const {
-    const float x = flat_ ? t / light_.t_max : (std::asinh((t - nearest_) * scale_) - begin_) / range_;
+    const float x = flat_ ? t / light_.t_max : std::log(exp_asinh((t - nearest_) * scale_) / begin_) / range_;
     return static_cast<double>(weighed_ ? pdf_of(probs_, x) : 1) * density(t);
   }
 
  private:
   float place(float x) const {
     if (flat_) return x * light_.t_max;
-    return nearest_ + std::sinh(begin_ + x * range_) / scale_;
+    const float e = begin_ * std::exp(x * range_);
+    return nearest_ + 0.5f * (e - 1 / e) / scale_;
   }
   /// dx/dt.
   double density(float t) const {
@@ -159,7 +166,7 @@ class LightMap {
     if (flat_) {
       for (size_t j = 0; j < kStrata; ++j) middles[j] = (static_cast<float>(j) + 0.5f) / kStrata * light_.t_max;
     } else {
-      float up = std::exp(begin_ + range_ / (2 * kStrata));
+      float up = begin_ * std::exp(range_ / (2 * kStrata));
       const float step = std::exp(range_ / kStrata);
       for (size_t j = 0; j < kStrata; ++j) {
         middles[j] = nearest_ + 0.5f * (up - 1 / up) / scale_;
@@ -192,7 +199,8 @@ class LightMap {
   }
 
   const Ray& light_;
-  float sine2_, nearest_, h2_, scale_, begin_, range_;
+  float sine2_, nearest_, h2_, scale_;
+  float begin_, range_;  ///< e^asinh at the beginning, and how much the exponent grows
   bool weighed_ = false, flat_ = false;
   Strata probs_{};
 };

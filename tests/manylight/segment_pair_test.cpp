@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "core/warp.h"
+#include "manylight/lanes.h"
+#include "manylight/segment_pairs.h"
 #include "testing/chi_square.h"
 
 namespace turbid::testing {
@@ -99,6 +101,49 @@ TEST(SegmentPair, SayTheSameOfWhatTheyDraw) {
       if (std::abs(near_border(1e-4f) / near_border(-1e-4f) - 1) > 0.02) continue;
       EXPECT_NEAR(told / pair.pdf, 1, 0.6) << i;
     }
+}
+
+/// The vector form draws the same places with the same densities; where strata meet, rounding may choose another.
+TEST(SegmentPairs, AreTheirTwin) {
+  Rng rng(7);
+  for (const SegmentLobes& lobes : {SegmentLobes{0, 0}, SegmentLobes{0.9f, 0.9f}, SegmentLobes{-0.4f, 0.7f}}) {
+    const auto all = some_segments();
+    int elsewhere = 0, count = 0;
+    for (const Segments& sensor : all)
+      for (int round = 0; round < 200; ++round) {
+        std::vector<PairRequest> requests;
+        for (const Segments& light : all) {
+          const float u = rng.next_float();
+          requests.push_back({&light.light, lobes.g_light, {u, rng.next_float()}});
+        }
+        std::vector<SegmentPair> found(requests.size());
+        sample_pairs(requests, sensor.sensor, lobes.g_sensor, found);
+        for (size_t i = 0; i < requests.size(); ++i, ++count) {
+          const Ray& light = *requests[i].light;
+          const SegmentPair twin = sample_pair(light, sensor.sensor, lobes, requests[i].u);
+          const bool same = std::abs(found[i].on_light - twin.on_light) < 1e-3f * light.t_max &&
+                            std::abs(found[i].on_sensor - twin.on_sensor) < 2e-3f * sensor.sensor.t_max &&
+                            std::abs(found[i].pdf / twin.pdf - 1) < 0.01;
+          elsewhere += !same;
+        }
+      }
+    EXPECT_LT(elsewhere, count / 500) << "of " << count;
+  }
+}
+
+TEST(SegmentPairs, VectorFunctionsAreExact) {
+  for (float x = -20; x < 20; x += 0.0371f) {
+    EXPECT_NEAR(exp_lanes(x)[0] / std::exp(x), 1, 3e-7f) << x;
+    const float positive = std::exp(x), angle = (x + 20) / 40 * kPi;
+    EXPECT_NEAR(log_lanes(positive)[0], std::log(positive), 2e-6f) << x;
+    EXPECT_NEAR(sine_cosine_lanes(angle).sine[0], std::sin(angle), 2e-7f) << x;
+    const float small = std::exp(-std::abs(x));
+    EXPECT_NEAR(sine_cosine_lanes(small).sine[0] / std::sin(small), 1, 5e-7f) << x;
+    EXPECT_NEAR(angle_lanes(small, 1)[0] / std::atan(small), 1, 5e-7f) << x;
+    EXPECT_NEAR(sine_cosine_lanes(angle).cosine[0], std::cos(angle), 2e-7f) << x;
+    EXPECT_NEAR(angle_lanes(std::sin(angle), std::cos(angle))[0], angle, 5e-7f) << x;
+    EXPECT_NEAR(angle_lanes(7 * std::sin(angle), 7 * std::cos(angle))[0], angle, 5e-7f) << x;
+  }
 }
 
 /// 1/d^2 over the density hardly varies where there are no lobes, however near the segments come.
