@@ -49,7 +49,7 @@ Stage::Shot Stage::render(const std::string& text, uint32_t samples, uint64_t se
   Film film(scene_.film().image_size(), integrator->layer_names());
   const double begin = process_cpu_seconds();
   integrator->render_pass(scene_, {seed, 0, samples}, film, stop);
-  return {film_to_image(film, false), process_cpu_seconds() - begin};
+  return {film_to_image(film, false), process_cpu_seconds() - begin, integrator->counters()};
 }
 
 Noise measure_noise(const Stage& stage, const std::string& integrator, uint32_t samples, const Image& reference,

@@ -26,6 +26,7 @@ class Stage {
   struct Shot {
     Image image;
     double seconds = 0;  ///< processor time of all threads
+    Counters counters;
   };
   Shot render(const std::string& integrator, uint32_t samples, uint64_t seed) const;
 
