@@ -10,11 +10,11 @@ class MergingSubpath : public SensorSubpath {
  public:
   /// `long_flights`: reach to the next surface, with the transmittance as weight; else they end where the walk collides.
   MergingSubpath(const BdptContext& context, Sampler& sampler, const std::vector<Vertex>& light_vertices,
-                 const PhotonGatherer& gatherer, bool long_flights, MergeCounters& merges)
+                 const PhotonGatherer& gatherer, bool long_flights, MergeWork& work)
       : SensorSubpath(context, sampler, light_vertices),
         gatherer_(gatherer),
         long_flights_(long_flights),
-        merges_(merges) {}
+        work_(work) {}
 
   void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg) {
     const HomogeneousMedium* homogeneous = medium.as_homogeneous();
@@ -25,12 +25,12 @@ class MergingSubpath : public SensorSubpath {
     const Vertex vertex = reach(event, state, traveller);
     if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
     connect(vertex, traveller);
-    gatherer_.at(vertex, *sink_, merges_);
+    gatherer_.at(vertex, *sink_, work_);
   }
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
     const Vertex vertex = reach(event, state);
     connect(vertex, traveller);
-    gatherer_.at(vertex, *sink_, merges_);
+    gatherer_.at(vertex, *sink_, work_);
   }
 
  private:
@@ -45,12 +45,12 @@ class MergingSubpath : public SensorSubpath {
     const auto sums_at = [&](float t) {
       return arrive({way.at(t), medium.sigma_t(), 1}, state.depth + 1, straight_ * medium.transmittance(t));
     };
-    gatherer_.along({segment, medium, state.depth, state.order}, sums_at, *sink_, merges_);
+    gatherer_.along({segment, medium, state.depth, state.order}, sums_at, *sink_, work_);
   }
 
   const PhotonGatherer& gatherer_;
   bool long_flights_;
-  MergeCounters& merges_;
+  MergeWork& work_;
 };
 
 }  // namespace turbid

@@ -143,6 +143,7 @@ std::vector<std::string> SplattingIntegrator::layer_names() const {
 
 void SplattingIntegrator::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
   prepare_workers(scene);
+  if (!splats()) return;
   // The exponent of the largest value stays what it is for a resumed render.
   constexpr size_t kPilotPaths = 4096;
   constexpr uint64_t kMostRounds = 16;

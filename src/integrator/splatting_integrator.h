@@ -42,6 +42,9 @@ class SplattingIntegrator : public Integrator {
     return true;
   }
 
+  /// False: the workers only gather, so that splats need no scale.
+  virtual bool splats() const { return true; }
+
   /// Writes the contributions of all strategies for paths of up to `max_edges` edges into layers of their own, named
   /// strategy.{weighted,plain}.EDGES.LIGHT_VERTICES.{R,G,B}.
   void show_strategies(int max_edges) { shown_edges_ = max_edges; }

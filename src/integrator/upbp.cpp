@@ -9,6 +9,7 @@ namespace turbid {
 namespace {
 
 constexpr size_t kGrain = 256;  ///< light paths per task
+constexpr uint64_t kWeighingStream = 0x6d656dull;
 
 }  // namespace
 
@@ -17,18 +18,18 @@ class Upbp::Tracer final : public SplattingIntegrator::Worker {
   Tracer(const Upbp& owner, const Scene& scene, uint64_t seed, SampleCounters& counters)
       : owner_(owner),
         worker_({scene, *owner.sources_, owner.path_, *owner.weights_, owner.own_.connections}, seed, counters,
-                *owner.gatherer_, owner.own_.long_flights, merges_) {}
+                *owner.gatherer_, owner.own_.long_flights, work_) {}
 
   ~Tracer() override {
     const std::lock_guard lock(owner_.counters_mutex_);
-    owner_.merges_.add(merges_);
+    owner_.merges_.add(work_.counters);
   }
 
   float run(size_t pixel, uint64_t index, ContributionSink& sink) override { return worker_.run(pixel, index, sink); }
 
  private:
   const Upbp& owner_;
-  MergeCounters merges_;
+  MergeWork work_;
   BidirectionalWorker<MergingSubpath> worker_;
 };
 
@@ -43,8 +44,10 @@ PathSupport Upbp::support() const {
 }
 
 void Upbp::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
-  bytes_per_path_.reset();
+  pilot_seed_ = hash_counters(seed, kWeighingStream);
+  finds_scale_ = true;
   SplattingIntegrator::prepare(scene, seed, stop);
+  finds_scale_ = false;
 }
 
 void Upbp::prepare_workers(const Scene& scene) {
@@ -56,11 +59,12 @@ void Upbp::prepare_workers(const Scene& scene) {
   leaves_.inhomogeneous = leaves_.collisions || leaves_.beams;
   leaves_.surfaces = own_.uses(Technique::kSurface);
   leaves_.long_beams = own_.long_beams;
+  weigh_paths(scene);
 }
 
 size_t Upbp::path_count(const Scene& scene) const {
   const size_t wanted = pixel_count(scene.film()) * static_cast<size_t>(own_.light_paths);
-  const double most = static_cast<double>(own_.memory) / std::max(*bytes_per_path_, 1.0);
+  const double most = static_cast<double>(own_.memory) / std::max(bytes_per_path_, 1.0);
   return most < static_cast<double>(wanted) ? std::max<size_t>(static_cast<size_t>(most), 1) : wanted;
 }
 
@@ -79,20 +83,19 @@ void Upbp::set_radii(const Scene& scene, uint64_t index, size_t paths) {
   gatherer_.emplace(scene, path_, *weights_, radii, inhomogeneous, counts, map_);
 }
 
-void Upbp::weigh_paths(const Scene& scene, uint64_t seed, uint64_t index, const StopFlag& stop) {
+void Upbp::weigh_paths(const Scene& scene) {
   constexpr size_t kPaths = 4096;
-  set_radii(scene, index, kPaths);
+  set_radii(scene, 0, kPaths);
   map_.photons.clear();
-  trace_photons(scene, seed, index, kPaths, stop);
+  trace_photons(scene, pilot_seed_, 0, kPaths, StopFlag());
   bytes_per_path_ = static_cast<double>(map_.photons.bytes()) / kPaths;
 }
 
 bool Upbp::prepare_round(const Scene& scene, uint64_t seed, uint64_t index, int, const StopFlag& stop) {
-  if (!bytes_per_path_) weigh_paths(scene, seed, index, stop);
   const size_t paths = path_count(scene);
   set_radii(scene, index, paths);
   map_.photons.clear();
-  if (leaves_.surfaces || leaves_.inhomogeneous) trace_photons(scene, seed, index, paths, stop);
+  if (!finds_scale_ && (leaves_.surfaces || leaves_.inhomogeneous)) trace_photons(scene, seed, index, paths, stop);
   map_.index(first_radius_);
   points_ += map_.photons.collisions.size() + map_.photons.surfaces.size();
   beams_ += map_.photons.beams.size();

@@ -45,12 +45,13 @@ class Upbp : public SplattingIntegrator {
  protected:
   std::unique_ptr<Worker> make_worker(const Scene& scene, uint64_t seed, SampleCounters& counters) const override;
   void prepare_workers(const Scene& scene) override;
+  bool splats() const override { return own_.uses(Technique::kJoin); }
   bool prepare_round(const Scene& scene, uint64_t seed, uint64_t index, int round, const StopFlag& stop) override;
 
  private:
   class Tracer;
   /// Finds out how much memory the photons of a light path take.
-  void weigh_paths(const Scene& scene, uint64_t seed, uint64_t index, const StopFlag& stop);
+  void weigh_paths(const Scene& scene);
   void trace_photons(const Scene& scene, uint64_t seed, uint64_t index, size_t paths, const StopFlag& stop);
   void set_radii(const Scene& scene, uint64_t index, size_t paths);
   /// As many as the memory holds.
@@ -61,7 +62,9 @@ class Upbp : public SplattingIntegrator {
   UpbpSettings own_;
   std::optional<LightSources> sources_;
   float first_radius_ = 0, first_surface_radius_ = 0;
-  std::optional<double> bytes_per_path_;
+  uint64_t pilot_seed_ = 0;
+  double bytes_per_path_ = 0;
+  bool finds_scale_ = false;  ///< of splats, which needs no photons
 
   // Of the image that is being made.
   PhotonSettings leaves_;

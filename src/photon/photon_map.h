@@ -51,7 +51,7 @@ class PhotonMap {
   template <class Visit>
   void call(uint32_t number, const Visit& visit) const {
     const Piece& piece = pieces_[number];
-    visit(photons.beams[piece.beam], piece.from, piece.to);
+    visit(piece.beam, piece.from, piece.to);
   }
 
   PointTree collisions_, surfaces_;
