@@ -3,6 +3,8 @@
 #include "core/parallel.h"
 #include "integrator/bidirectional_worker.h"
 #include "integrator/merging_subpath.h"
+#include "integrator/gather_pilot.h"
+#include "integrator/technique_pilot.h"
 #include "photon/default_radii.h"
 
 namespace turbid {
@@ -38,12 +40,14 @@ std::unique_ptr<SplattingIntegrator::Worker> Upbp::make_worker(const Scene& scen
   return std::make_unique<Tracer>(*this, scene, seed, counters);
 }
 
+/// (Not found, though: a delta light seen in nothing but specular vertices; without `bpt` and merges at surfaces, a delta
+/// light on surfaces alone.)
 PathSupport Upbp::support() const {
-  const bool joins = own_.uses(Technique::kJoin);
-  return {.specular_at_sensor = true, .specular_at_delta_light = true, .beams = true, .glowing_media = joins};
+  return {.specular_at_sensor = true, .specular_at_delta_light = true, .beams = true, .glowing_media = true};
 }
 
 void Upbp::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
+  if (own_.techniques.none()) own_ = choose_techniques(scene, path_, own_, seed, stop);
   pilot_seed_ = hash_counters(seed, kWeighingStream);
   finds_scale_ = true;
   SplattingIntegrator::prepare(scene, seed, stop);
@@ -63,7 +67,8 @@ void Upbp::prepare_workers(const Scene& scene) {
 }
 
 size_t Upbp::path_count(const Scene& scene) const {
-  const size_t wanted = pixel_count(scene.film()) * static_cast<size_t>(own_.light_paths);
+  const size_t all = pixel_count(scene.film()) * static_cast<size_t>(own_.light_paths);
+  const size_t wanted = std::min(all, most_paths_.value_or(all));
   const double most = static_cast<double>(own_.memory) / std::max(bytes_per_path_, 1.0);
   return most < static_cast<double>(wanted) ? std::max<size_t>(static_cast<size_t>(most), 1) : wanted;
 }
@@ -122,6 +127,67 @@ void Upbp::trace_photons(const Scene& scene, uint64_t seed, uint64_t index, size
   for (Photons& part : parts) map_.photons.append(std::move(part));
 }
 
+// --- pilots ----------------------------------------------------------------------------------------------------------
+
+/// Keeps what one pixel gathers, and the squares of splats: each is one of many that may reach a pixel, so that the sum of
+/// their squares, over as many paths as there are pixels, is the mean variance that they bring.
+class Upbp::PilotSink final : public ContributionSink {
+ public:
+  Spectrum gathered{0.0f};
+  double splatted = 0;
+
+  void gather(const Contribution& contribution) override {
+    const Spectrum value = contribution.value * contribution.weight;
+    if (value.is_finite()) gathered += value;
+  }
+  void splat(size_t, const Contribution& contribution) override {
+    const Spectrum value = contribution.value * contribution.weight;
+    if (value.is_finite()) splatted += static_cast<double>((value * value).mean());
+  }
+};
+
+Upbp::Observation Upbp::observe(const Scene& scene, uint64_t seed, const StopFlag& stop) {
+  constexpr size_t kPixels = 4096, kMostPaths = size_t{1} << 15;
+  constexpr uint64_t kImages = 4;
+  most_paths_ = kMostPaths;
+  pilot_seed_ = seed;
+  prepare_workers(scene);
+  const Counters before = counters();
+  const size_t all = pixel_count(scene.film()), pixels = std::min(all, kPixels);
+  std::vector<double> sums(pixels * kChannels), squares(pixels * kChannels), splatted(pixels);
+  double storing = 0;
+  for (uint64_t index = 0; index < kImages && !stop.requested(); ++index) {
+    const double work_before = work_of(counters());
+    prepare_round(scene, seed, index, 0, stop);
+    storing += work_of(counters()) - work_before;
+    parallel_for((pixels + kGrain - 1) / kGrain, [&](size_t task) {
+      SampleCounters counters;
+      {
+        const auto worker = make_worker(scene, seed, counters);
+        for (size_t i = task * kGrain; i < std::min(pixels, (task + 1) * kGrain); ++i) {
+          PilotSink sink;
+          worker->run(i * all / pixels, index, sink);
+          splatted[i] += sink.splatted;
+          for (int c = 0; c < kChannels; ++c) {
+            sums[i * kChannels + static_cast<size_t>(c)] += static_cast<double>(sink.gathered[c]);
+            squares[i * kChannels + static_cast<size_t>(c)] += sqr(static_cast<double>(sink.gathered[c]));
+          }
+        }
+      }
+      const std::lock_guard lock(counters_mutex_);
+      traced_.add(counters);
+    });
+  }
+  Observation result;
+  for (size_t k = 0; k < sums.size(); ++k)
+    result.variance += std::max(0.0, squares[k] - sqr(sums[k]) / kImages) / (kImages - 1) / static_cast<double>(sums.size());
+  for (const double sum : splatted) result.variance += sum / static_cast<double>(kImages * pixels);
+  const double gathered = work_of(counters()) - work_of(before) - storing;
+  const double traced = static_cast<double>(std::min(kMostPaths, all));
+  result.work = gathered / static_cast<double>(kImages * pixels) + storing / (kImages * traced);
+  return result;
+}
+
 Counters Upbp::counters() const {
   Counters result = SplattingIntegrator::counters();
   const std::lock_guard lock(counters_mutex_);
@@ -132,6 +198,8 @@ Counters Upbp::counters() const {
   result["free_flights"] += traced_.free_flights;
   result["photons"] = points_;
   result["photon_beams"] = beams_;
+  result["point_queries"] = merges_.point_queries;
+  result["beam_queries"] = merges_.beam_queries;
   result["point_tests"] = merges_.point_tests;
   result["beam_tests"] = merges_.beam_tests;
   result["merges"] = merges_.merges;

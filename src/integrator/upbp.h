@@ -11,7 +11,7 @@ namespace turbid {
 
 /// What `upbp` and its presets are told beside the common parameters.
 struct UpbpSettings {
-  std::bitset<kTechniqueNames.size()> techniques;  ///< by Technique
+  std::bitset<kTechniqueNames.size()> techniques;  ///< by Technique; none: a pilot chooses
   StrategyWeights::Heuristic heuristic = StrategyWeights::Heuristic::kBalance;
   float connections = 8;                        ///< BdptSettings::connections
   std::optional<float> radius, surface_radius;  ///< of kernels in media and on surfaces; empty: by the scene
@@ -19,10 +19,11 @@ struct UpbpSettings {
   float keep = 2.0f / 3;                        ///< of radius_factor
   bool long_beams = false, long_flights = false;
   int light_paths = 1;              ///< per pixel of each image
-  int beam_paths = 5000;            ///< of these leave beams
+  int beam_paths = 0;               ///< of these leave beams; 0: a pilot chooses with the techniques, else kBeamPaths
   size_t memory = size_t{1} << 30;  ///< for photons, bytes; about
   bool shows_techniques = false;
 
+  static constexpr int kBeamPaths = 5000;
   bool uses(Technique technique) const { return techniques[static_cast<size_t>(technique)]; }
 };
 
@@ -39,6 +40,17 @@ class Upbp : public SplattingIntegrator {
   }
 
   void prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) override;
+
+  /// What images are like that these settings make, from a sample of the pixels; for pilots, in the place of prepare().
+  struct Observation {
+    double variance = 0;  ///< of a pixel's value in one image, mean over pixels and channels
+    double work = 0;      ///< of an image for each pixel, in casts, counted
+  };
+  Observation observe(const Scene& scene, uint64_t seed, const StopFlag& stop);
+
+  /// What is used; after prepare() also what the pilot has chosen.
+  const UpbpSettings& settings() const { return own_; }
+
   Counters counters() const override;
   PathSupport support() const override;
 
@@ -50,16 +62,20 @@ class Upbp : public SplattingIntegrator {
 
  private:
   class Tracer;
+  class PilotSink;
   /// Finds out how much memory the photons of a light path take.
   void weigh_paths(const Scene& scene);
   void trace_photons(const Scene& scene, uint64_t seed, uint64_t index, size_t paths, const StopFlag& stop);
   void set_radii(const Scene& scene, uint64_t index, size_t paths);
   /// As many as the memory holds.
   size_t path_count(const Scene& scene) const;
-  size_t beam_path_count(size_t paths) const { return std::min(paths, static_cast<size_t>(own_.beam_paths)); }
+  size_t beam_path_count(size_t paths) const {
+    return std::min(paths, static_cast<size_t>(own_.beam_paths > 0 ? own_.beam_paths : UpbpSettings::kBeamPaths));
+  }
 
   PathSettings path_;
   UpbpSettings own_;
+  std::optional<size_t> most_paths_;
   std::optional<LightSources> sources_;
   float first_radius_ = 0, first_surface_radius_ = 0;
   uint64_t pilot_seed_ = 0;

@@ -12,7 +12,8 @@ std::vector<Parameter> parameters(const std::string& techniques) {
   return with_common_parameters(
       {{"techniques", ParameterType::kString, techniques,
         "how paths are made, in any combination (a space, comma or + between them): bpt (lines between two walks), surf "
-        "(photons at surfaces), pp3d, pb2d (photon points near collisions, near flights), bp2d, bb1d (photon beams)"},
+        "(photons at surfaces), pp3d, pb2d (photon points near collisions, near flights), bp2d, bb1d (photon beams); "
+        "auto: a pilot chooses"},
        heuristic_parameter("balance"),
        {"connections",
         ParameterType::kFloat,
@@ -36,7 +37,9 @@ std::vector<Parameter> parameters(const std::string& techniques) {
        word("sensor_beams", "short", "end where walks from the sensor collide (short) or at the next surface (long)",
             {"short", "long"}),
        {"light_paths", ParameterType::kInteger, "1", "light paths per pixel of each image", kAtLeastOne},
-       {"beam_paths", ParameterType::kInteger, "5000", "how many of an image's light paths leave beams", kAtLeastOne},
+       {"beam_paths", ParameterType::kInteger, "0",
+        "how many of an image's light paths leave beams; 0: the pilot chooses, or 5000 where techniques are named",
+        kNonNegative},
        {"memory", ParameterType::kInteger, "1024", "about the most memory for photons, MiB: fewer light paths above it",
         kAtLeastOne},
        {"visualize_techniques", ParameterType::kBoolean, "false",
@@ -46,7 +49,8 @@ std::vector<Parameter> parameters(const std::string& techniques) {
 UpbpSettings settings_of(const Properties& properties) {
   UpbpSettings own;
   const std::string text = properties.string("techniques");
-  for (size_t at = 0; (at = text.find_first_not_of(", +", at)) != std::string::npos;) {
+  const bool chosen = text == "auto";
+  for (size_t at = chosen ? text.size() : 0; (at = text.find_first_not_of(", +", at)) != std::string::npos;) {
     const size_t end = std::min(text.find_first_of(", +", at), text.size());
     const std::string name = text.substr(at, end - at);
     const auto found = std::find(kTechniqueNames.begin(), kTechniqueNames.end(), name);
@@ -55,7 +59,7 @@ UpbpSettings settings_of(const Properties& properties) {
     own.techniques.set(static_cast<size_t>(found - kTechniqueNames.begin()));
     at = end;
   }
-  if (own.techniques.none()) properties.refuse("techniques", "must name some of " + all_names());
+  if (!chosen && own.techniques.none()) properties.refuse("techniques", "must name some of " + all_names());
   own.heuristic = heuristic_of(properties);
   own.connections = properties.number("connections");
   if (properties.number("radius") > 0) own.radius = properties.number("radius");
@@ -83,7 +87,7 @@ IntegratorPlugin row(const std::string& name, const std::string& techniques, con
 }  // namespace
 
 std::vector<IntegratorPlugin> upbp_rows() {
-  return {row("upbp", "bpt, surf, pp3d, pb2d, bb1d",
+  return {row("upbp", "auto",
               "unified points, beams and paths: bidirectional paths, photon points and photon beams, weighed together"),
           row("photonmapper", "surf, pp3d", "photons at surfaces and in media (upbp with surf and pp3d)"),
           row("bre", "surf, pb2d", "photons at surfaces, photon points along flights in media (upbp with surf and pb2d)"),

@@ -33,6 +33,7 @@ void PhotonGatherer::at(const Vertex& vertex, ContributionSink& sink, MergeWork&
 /// is what scattering is defined with and cos_g what turns flux into irradiance.
 void PhotonGatherer::at_surface(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const {
   const float scale = static_cast<float>(1 / (counts_.paths * disk(radii_.surface)));
+  ++work.counters.point_queries;
   map_.surfaces().around(vertex.position, radii_.surface, [&](uint32_t number) {
     ++work.counters.point_tests;
     const PhotonPoint& photon = map_.photons.surfaces[number];
@@ -62,6 +63,7 @@ void PhotonGatherer::points_at(const Vertex& vertex, ContributionSink& sink, Mer
   Spectrum throughput;
   for (int c = 0; c < kChannels; ++c) throughput[c] = sigma_s[c] > 0 ? vertex.throughput[c] / sigma_s[c] : 0;
   throughput *= static_cast<float>(1 / (counts_.paths * ball(radius)));
+  ++work.counters.point_queries;
   map_.collisions().around(vertex.position, radius, [&](uint32_t number) {
     ++work.counters.point_tests;
     const PhotonPoint& photon = map_.photons.collisions[number];
@@ -87,6 +89,7 @@ void PhotonGatherer::beams_at(const Vertex& vertex, ContributionSink& sink, Merg
   const float radius = radii_.beam_point;
   const float scale = static_cast<float>(1 / (counts_.beam_paths * disk(radius)));
   work.found.clear();
+  ++work.counters.beam_queries;
   map_.beams_around(vertex.position, [&](uint32_t number, float from, float to) {
     ++work.counters.beam_tests;
     const PhotonBeam& beam = map_.photons.beams[number];

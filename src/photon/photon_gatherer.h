@@ -21,9 +21,12 @@ Merging merging_by(const KernelRadii& radii, const PhotonCounts& counts, float i
 
 /// How much work merging was.
 struct MergeCounters {
-  uint64_t point_tests = 0, beam_tests = 0, merges = 0;
+  uint64_t point_queries = 0, point_tests = 0;
+  uint64_t beam_queries = 0, beam_tests = 0, merges = 0;
 
   void add(const MergeCounters& other) {
+    point_queries += other.point_queries;
+    beam_queries += other.beam_queries;
     point_tests += other.point_tests;
     beam_tests += other.beam_tests;
     merges += other.merges;
@@ -104,6 +107,7 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
 
   if (radii_.point_beam > 0 && !map_.collisions().empty()) {
     const float scale = static_cast<float>(1 / (counts_.paths * static_cast<double>(kPi * sqr(radii_.point_beam))));
+    ++work.counters.point_queries;
     map_.collisions().along(ray, radii_.point_beam, [&](uint32_t number) {
       ++work.counters.point_tests;
       const PhotonPoint& photon = map_.photons.collisions[number];
@@ -124,6 +128,7 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
   if (radii_.beam_beam > 0) {
     const float scale = static_cast<float>(1 / (counts_.beam_paths * 2 * static_cast<double>(radii_.beam_beam)));
     work.found.clear();
+    ++work.counters.beam_queries;
     map_.beams_along(ray, [&](uint32_t number, float from, float to) {
       ++work.counters.beam_tests;
       const PhotonBeam& beam = map_.photons.beams[number];

@@ -22,9 +22,7 @@ class PointTree {
   void along(const Ray& ray, float radius, const Visit& visit) const;
   /// The same for points around a place.
   template <class Visit>
-  void around(const Vec3& p, float radius, const Visit& visit) const {
-    along({p, Vec3(0), 0}, radius, visit);
-  }
+  void around(const Vec3& p, float radius, const Visit& visit) const;
 
  private:
   struct Item {
@@ -36,7 +34,9 @@ class PointTree {
     int axis;
   };
   static constexpr size_t kLeaf = 8;  ///< most points of a leaf
-  static constexpr size_t kParallel = 1 << 14;
+  static constexpr size_t kParallel = 1 << 14;   ///< least points of a part that is split by two threads
+  static constexpr size_t kMostTasks = 64;       ///< two for each level
+  static constexpr float kWider = 1.001f;        ///< of what is reported: the caller decides
   void split(size_t node, size_t from, size_t to);
   static size_t middle(size_t from, size_t to) { return from + (to - from) / 2; }
 
@@ -45,13 +45,36 @@ class PointTree {
 };
 
 template <class Visit>
+void PointTree::around(const Vec3& p, float radius, const Visit& visit) const {
+  struct Task {
+    size_t node, from, to;
+  };
+  if (empty()) return;
+  std::array<Task, kMostTasks> stack;
+  size_t count = 0;
+  stack[count++] = {0, 0, items_.size()};
+  while (count > 0) {
+    const Task task = stack[--count];
+    if (task.to - task.from <= kLeaf) {
+      for (size_t i = task.from; i < task.to; ++i)
+        if (length_squared(items_[i].position - p) <= kWider * sqr(radius)) visit(items_[i].number);
+      continue;
+    }
+    const Node& node = nodes_[task.node];
+    const size_t mid = middle(task.from, task.to);
+    if (p[node.axis] - radius <= node.split) stack[count++] = {2 * task.node + 1, task.from, mid};
+    if (p[node.axis] + radius >= node.split) stack[count++] = {2 * task.node + 2, mid, task.to};
+  }
+}
+
+template <class Visit>
 void PointTree::along(const Ray& ray, float radius, const Visit& visit) const {
   struct Task {
     size_t node, from, to;
     float t0, t1;
   };
   if (empty()) return;
-  std::array<Task, 48> stack;
+  std::array<Task, kMostTasks> stack;
   size_t count = 0;
   stack[count++] = {0, 0, items_.size(), 0, ray.t_max};
   while (count > 0) {
@@ -60,8 +83,6 @@ void PointTree::along(const Ray& ray, float radius, const Visit& visit) const {
       for (size_t i = task.from; i < task.to; ++i) {
         const Vec3 to = items_[i].position - ray.origin;
         const float t = std::clamp(dot(to, ray.direction), task.t0, task.t1);
-        // A little wider than asked: the caller decides.
-        constexpr float kWider = 1.001f;
         if (length_squared(to - ray.direction * t) <= kWider * sqr(radius)) visit(items_[i].number);
       }
       continue;
