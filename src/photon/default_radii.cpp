@@ -29,7 +29,7 @@ float default_surface_radius(const Scene& scene, float pixels) {
 }
 
 float default_media_radius(const Scene& scene, float pixels) {
-  constexpr float kMostOfMeanFreePath = 0.03f;
+  constexpr float kMostOfMeanFreePath = 0.015f;
   float radius = default_surface_radius(scene, pixels);
   for (const Surroundings& around : scene.media())
     if (around.mean_free_path > 0) radius = std::min(radius, kMostOfMeanFreePath * around.mean_free_path);

@@ -97,10 +97,14 @@ void PointTree::along(const Ray& ray, float radius, const Visit& visit) const {
       const bool in_a = upper ? a >= plane : a <= plane, in_b = upper ? b >= plane : b <= plane;
       if (!in_a && !in_b) return;
       float t0 = task.t0, t1 = task.t1;
-      // Cut generously: rounding must lose no point.
-      const float cut = (plane - o) / d, slack = 1e-4f * (t1 - t0) + radius;
-      if (!in_a) t0 = std::max(t0, cut - slack);
-      if (!in_b) t1 = std::min(t1, cut + slack);
+      if (!in_a || !in_b) {
+        // Cut generously: rounding must lose no point.
+        const float cut = (plane - o) / d, slack = 1e-4f * (t1 - t0) + radius;
+        if (in_a)
+          t1 = std::min(t1, cut + slack);
+        else
+          t0 = std::max(t0, cut - slack);
+      }
       stack[count++] = upper ? Task{2 * task.node + 2, mid, task.to, t0, t1}
                              : Task{2 * task.node + 1, task.from, mid, t0, t1};
     };
