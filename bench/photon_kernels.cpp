@@ -4,8 +4,8 @@
 #include "photon/photon_recorder.h"
 #include "scene/loader.h"
 
-/// How photons are found: points by a k-d tree (PointTree, what is used) or by Embree's hierarchy over boxes around them
-/// (VolumeIndex); beams by that hierarchy, whole or in pieces.
+/// How photons are found: points by a k-d tree (PointTree, what is used) or by Embree's hierarchy over boxes around
+/// them (VolumeIndex); beams by that hierarchy, whole or in pieces.
 namespace turbid::bench {
 namespace {
 

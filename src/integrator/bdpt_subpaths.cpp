@@ -57,8 +57,8 @@ void LightSubpath::join_with_sensor(const Vertex& vertex, const Traveller& trave
   const double pdf = to_double(arrival->pdf) * end_factor(vertex, wo, arrival->proxy);
   sink_->splat(context_.sensor.index_of(arrival->target.pixel),
                {.value = flux * arrival->weight,
-                .weight = weight_of(weights_.others(current_, pdf, to_double(scattered.pdf_back_w),
-                                                       merged_at(weights_, vertex, wo))),
+                .weight = weight_of(
+                    weights_.others(current_, pdf, to_double(scattered.pdf_back_w), merged_at(weights_, vertex, wo))),
                 .light_vertices = vertex.depth + 1,
                 .sensor_vertices = 1,
                 .order = vertex.order});
@@ -114,8 +114,8 @@ void SensorSubpath::at_light(const Hit& hit, const Object& object, const Surface
     others *= sums.joint;  // light joined with the sensor
   } else {
     const double direct_a = to_double(context_.scene.choice_prob(index)) *
-                            to_double(emitter.pdf_direct_w(edge_.from.position, point.p, point.ng)) * to_double(cosine) *
-                            inverse_square(point.p, edge_.from.position);
+                            to_double(emitter.pdf_direct_w(edge_.from.position, point.p, point.ng)) *
+                            to_double(cosine) * inverse_square(point.p, edge_.from.position);
     others = weights_.power(direct_a * sums.inverse_pdf) * sums.joint +
              others * weights_.power(to_double(emission.pdf_w)) * sums.behind;
   }
@@ -209,7 +209,7 @@ double SensorSubpath::others_of_direct(const Vertex& vertex, const EmitterChoice
                         : to_double(emission.pdf_a) / to_double(std::abs(dot(light.ng, light.wi)));
   }
   return others + weights_.others(vertex.sums, walk / direct, to_double(scattered.pdf_back_w),
-                                   merged_at(weights_, vertex, light.wi));
+                                  merged_at(weights_, vertex, light.wi));
 }
 
 /// Of the lines that make paths of k edges min(1, connections / k) are taken, systematically: the number does not

@@ -22,7 +22,8 @@ struct BdptContext {
 /// The subpath from a light: keeps its vertices, and joins each with the sensor (t = 1).
 class LightSubpath : public LightRecorder {
  public:
-  explicit LightSubpath(const BdptContext& context) : LightRecorder(context.scene, context.weights), context_(context) {}
+  explicit LightSubpath(const BdptContext& context)
+      : LightRecorder(context.scene, context.weights), context_(context) {}
 
   void begin(ContributionSink& sink) {
     sink_ = &sink;

@@ -32,8 +32,9 @@ IntegratorPlugin moment_row() {
 }
 
 IntegratorTable make_table() {
-  std::vector<IntegratorPlugin> rows = {path_row(), direct_row(),  volpath_row(), single_scatter_row(), particle_tracer_row(),
-                                        bdpt_row(), mcrt_row(), moment_row(),  aov_row()};
+  std::vector<IntegratorPlugin> rows = {path_row(),           direct_row(),          volpath_row(),
+                                        single_scatter_row(), particle_tracer_row(), bdpt_row(),
+                                        mcrt_row(),           moment_row(),          aov_row()};
   for (IntegratorPlugin& row : upbp_rows()) rows.insert(rows.end() - 2, std::move(row));
   return IntegratorTable(
       Category::kIntegrator, std::move(rows),

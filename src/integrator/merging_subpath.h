@@ -8,7 +8,8 @@ namespace turbid {
 /// The subpath from the sensor that is merged with photons wherever it can be, beside what SensorSubpath does.
 class MergingSubpath : public SensorSubpath {
  public:
-  /// `long_flights`: reach to the next surface, with the transmittance as weight; else they end where the walk collides.
+  /// `long_flights`: reach to the next surface, with the transmittance as weight; else they end where the walk
+  /// collides.
   MergingSubpath(const BdptContext& context, Sampler& sampler, const std::vector<Vertex>& light_vertices,
                  const PhotonGatherer& gatherer, bool long_flights, MergeWork& work)
       : SensorSubpath(context, sampler, light_vertices),
@@ -34,8 +35,7 @@ class MergingSubpath : public SensorSubpath {
   }
 
  private:
-  void merge_along(const Ray& way, const HomogeneousMedium& medium, const PathState& state,
-                   const Traveller::Leg& leg) {
+  void merge_along(const Ray& way, const HomogeneousMedium& medium, const PathState& state, const Traveller::Leg& leg) {
     const PathSettings& settings = context_.settings;
     if (state.depth + 2 > settings.max_depth || state.order + 1 > settings.max_scattering) return;
     if (medium.sigma_s().is_black() || state.throughput.is_black()) return;

@@ -177,8 +177,7 @@ bool SplattingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film
       splats.layers.try_emplace(static_cast<size_t>(layer) * kChannels, film.size(), largest_exponent_);
     }
 
-  if (shows_techniques_)
-    splats.layers.try_emplace(technique_channel(Technique::kJoin), film.size(), largest_exponent_);
+  if (shows_techniques_) splats.layers.try_emplace(technique_channel(Technique::kJoin), film.size(), largest_exponent_);
 
   const size_t pixels = film.pixel_count();
   std::vector<PixelSample> gathered(pixels);

@@ -38,7 +38,8 @@ class Pilot {
     Candidate few = observe(techniques, kFewBeamPaths);
     const Candidate many = observe(techniques, kManyBeamPaths);
     constexpr double kLow = static_cast<double>(kFewBeamPaths) / kManyBeamPaths;
-    const QTradeOff trade = trade_off({1, few.seen.variance, few.seen.work}, {kLow, many.seen.variance, many.seen.work});
+    const QTradeOff trade =
+        trade_off({1, few.seen.variance, few.seen.work}, {kLow, many.seen.variance, many.seen.work});
     // No farther than between the two that were seen.
     const double share = trade.best(kLow);
     few.settings.beam_paths = static_cast<int>(std::lround(kFewBeamPaths / share));
@@ -67,7 +68,8 @@ UpbpSettings choose_techniques(const Scene& scene, const PathSettings& path, con
                                const StopFlag& stop) {
   using enum Technique;
   const Pilot pilot(scene, path, own, seed, stop);
-  std::vector<Candidate> candidates = {pilot.observe({kJoin}, own.beam_paths), pilot.observe({kJoin, kSurface}, own.beam_paths)};
+  std::vector<Candidate> candidates = {pilot.observe({kJoin}, own.beam_paths),
+                                       pilot.observe({kJoin, kSurface}, own.beam_paths)};
   if (!scene.media().empty()) {
     candidates.push_back(pilot.observe({kJoin, kSurface, kPointBeam}, own.beam_paths));
     candidates.push_back(pilot.observe({kJoin, kSurface, kPointPoint, kPointBeam}, own.beam_paths));

@@ -2,8 +2,8 @@
 
 #include "core/parallel.h"
 #include "integrator/bidirectional_worker.h"
-#include "integrator/merging_subpath.h"
 #include "integrator/gather_pilot.h"
+#include "integrator/merging_subpath.h"
 #include "integrator/technique_pilot.h"
 #include "photon/default_radii.h"
 
@@ -40,8 +40,8 @@ std::unique_ptr<SplattingIntegrator::Worker> Upbp::make_worker(const Scene& scen
   return std::make_unique<Tracer>(*this, scene, seed, counters);
 }
 
-/// (Not found, though: a delta light seen in nothing but specular vertices; without `bpt` and merges at surfaces, a delta
-/// light on surfaces alone.)
+/// (Not found, though: a delta light seen in nothing but specular vertices; without `bpt` and merges at surfaces, a
+/// delta light on surfaces alone.)
 PathSupport Upbp::support() const {
   return {.specular_at_sensor = true, .specular_at_delta_light = true, .beams = true, .glowing_media = true};
 }
@@ -129,8 +129,8 @@ void Upbp::trace_photons(const Scene& scene, uint64_t seed, uint64_t index, size
 
 // --- pilots ----------------------------------------------------------------------------------------------------------
 
-/// Keeps what one pixel gathers, and the squares of splats: each is one of many that may reach a pixel, so that the sum of
-/// their squares, over as many paths as there are pixels, is the mean variance that they bring.
+/// Keeps what one pixel gathers, and the squares of splats: each is one of many that may reach a pixel, so that the sum
+/// of their squares, over as many paths as there are pixels, is the mean variance that they bring.
 class Upbp::PilotSink final : public ContributionSink {
  public:
   Spectrum gathered{0.0f};
@@ -180,7 +180,8 @@ Upbp::Observation Upbp::observe(const Scene& scene, uint64_t seed, const StopFla
   }
   Observation result;
   for (size_t k = 0; k < sums.size(); ++k)
-    result.variance += std::max(0.0, squares[k] - sqr(sums[k]) / kImages) / (kImages - 1) / static_cast<double>(sums.size());
+    result.variance +=
+        std::max(0.0, squares[k] - sqr(sums[k]) / kImages) / (kImages - 1) / static_cast<double>(sums.size());
   for (const double sum : splatted) result.variance += sum / static_cast<double>(kImages * pixels);
   const double gathered = work_of(counters()) - work_of(before) - storing;
   const double traced = static_cast<double>(std::min(kMostPaths, all));

@@ -27,10 +27,10 @@ struct UpbpSettings {
   bool uses(Technique technique) const { return techniques[static_cast<size_t>(technique)]; }
 };
 
-/// Unified points, beams and paths (Křivánek et al. 2014): bidirectional path tracing, photons merged at surfaces, and in
-/// media points and beams of photons merged with points and flights of walks from the sensor, in any combination, all
-/// weighed against each other by recursive sums (StrategySums). Every sample of the pixels is an image of its own, with
-/// its own light paths and radii that shrink from one to the next: consistent, and biased at any time.
+/// Unified points, beams and paths (Křivánek et al. 2014): bidirectional path tracing, photons merged at surfaces, and
+/// in media points and beams of photons merged with points and flights of walks from the sensor, in any combination,
+/// all weighed against each other by recursive sums (StrategySums). Every sample of the pixels is an image of its own,
+/// with its own light paths and radii that shrink from one to the next: consistent, and biased at any time.
 ///
 /// Without `bpt`, paths with no vertex to merge at are found by chance alone.
 class Upbp : public SplattingIntegrator {

@@ -11,7 +11,8 @@ std::string all_names() { return fmt::format("{}", fmt::join(kTechniqueNames, ",
 std::vector<Parameter> parameters(const std::string& techniques) {
   return with_common_parameters(
       {{"techniques", ParameterType::kString, techniques,
-        "how paths are made, in any combination (a space, comma or + between them): bpt (lines between two walks), surf "
+        "how paths are made, in any combination (a space, comma or + between them): bpt (lines between two walks), "
+        "surf "
         "(photons at surfaces), pp3d, pb2d (photon points near collisions, near flights), bp2d, bb1d (photon beams); "
         "auto: a pilot chooses"},
        heuristic_parameter("balance"),
@@ -21,7 +22,8 @@ std::vector<Parameter> parameters(const std::string& techniques) {
         "about how many of the joining lines are tried for paths of one length",
         {.min = 1}},
        {"radius", ParameterType::kFloat, "0",
-        "of kernels in media in the first image, scene units; 0: a pixel, and no more than keeps the bias at boundaries "
+        "of kernels in media in the first image, scene units; 0: a pixel, and no more than keeps the bias at "
+        "boundaries "
         "small",
         kNonNegative},
        {"surface_radius", ParameterType::kFloat, "0", "of disks on surfaces in the first image; 0: by pixels",
@@ -87,11 +89,12 @@ IntegratorPlugin row(const std::string& name, const std::string& techniques, con
 }  // namespace
 
 std::vector<IntegratorPlugin> upbp_rows() {
-  return {row("upbp", "auto",
-              "unified points, beams and paths: bidirectional paths, photon points and photon beams, weighed together"),
-          row("photonmapper", "surf, pp3d", "photons at surfaces and in media (upbp with surf and pp3d)"),
-          row("bre", "surf, pb2d", "photons at surfaces, photon points along flights in media (upbp with surf and pb2d)"),
-          row("beams", "surf, bb1d", "photons at surfaces, photon beams in media (upbp with surf and bb1d)")};
+  return {
+      row("upbp", "auto",
+          "unified points, beams and paths: bidirectional paths, photon points and photon beams, weighed together"),
+      row("photonmapper", "surf, pp3d", "photons at surfaces and in media (upbp with surf and pp3d)"),
+      row("bre", "surf, pb2d", "photons at surfaces, photon points along flights in media (upbp with surf and pb2d)"),
+      row("beams", "surf, bb1d", "photons at surfaces, photon beams in media (upbp with surf and bb1d)")};
 }
 
 }  // namespace turbid

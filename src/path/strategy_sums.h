@@ -30,11 +30,11 @@ struct StrategySums {
 /// both walks make the vertex with, by collisions, times this; where a walk need not collide but only pass, over the
 /// density of collisions per length; two beams that cross meet with the sine of the angle between them.
 struct Merging {
-  double surface = 0;      ///< disks at surfaces, area
-  double point_point = 0;  ///< balls around collisions (P-P3D), volume
-  double point_beam = 0;   ///< collisions of light around flights from the sensor (P-B2D), area
-  double beam_point = 0;   ///< flights of light around collisions (B-P2D), area
-  double beam_beam = 0;    ///< flights around flights (B-B1D), length
+  double surface = 0;        ///< disks at surfaces, area
+  double point_point = 0;    ///< balls around collisions (P-P3D), volume
+  double point_beam = 0;     ///< collisions of light around flights from the sensor (P-B2D), area
+  double beam_point = 0;     ///< flights of light around collisions (B-P2D), area
+  double beam_beam = 0;      ///< flights around flights (B-B1D), length
   double inhomogeneous = 0;  ///< P-P3D where flights have no closed form, volume
 
   bool in_media() const { return point_point + point_beam + beam_point + beam_beam + inhomogeneous > 0; }

@@ -8,9 +8,9 @@ namespace turbid {
 /// Where a light path collided, or came to a surface with a smooth lobe.
 struct PhotonPoint {
   Vec3 position;
-  Vec3 direction;  ///< of travel, unit
-  Vec3 ng;         ///< of surfaces: geometric normal
-  Spectrum flux;   ///< W; collisions: with the albedo
+  Vec3 direction;                  ///< of travel, unit
+  Vec3 ng;                         ///< of surfaces: geometric normal
+  Spectrum flux;                   ///< W; collisions: with the albedo
   const Medium* medium = nullptr;  ///< of collisions
   /// Parts of StrategyWeights::beside_merge, which is near + power(pdf_back_w) * far.
   double near = 0, far = 0;
@@ -35,9 +35,9 @@ struct PhotonPoint {
 struct PhotonBeam {
   LightSegment segment;
   const HomogeneousMedium* medium;
-  OpenEdge edge;            ///< that the flight is part of ...
-  Spectrum straight;        ///< ... and what it lets through in front of the flight
-  uint32_t emission = 0;    ///< of the light path, see PhotonMap
+  OpenEdge edge;             ///< that the flight is part of ...
+  Spectrum straight;         ///< ... and what it lets through in front of the flight
+  uint32_t emission = 0;     ///< of the light path, see PhotonMap
   int depth = 0, order = 0;  ///< edges and collisions before the flight
 
   const Ray& ray() const { return segment.ray; }

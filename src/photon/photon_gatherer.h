@@ -93,8 +93,7 @@ class PhotonGatherer {
 };
 
 template <class SumsAt>
-void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, ContributionSink& sink,
-                           MergeWork& work) const {
+void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, ContributionSink& sink, MergeWork& work) const {
   const Ray& ray = flight.segment.ray;
   const HomogeneousMedium& medium = flight.medium;
   const int sensor_depth = flight.depth + 1;
@@ -145,9 +144,8 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
       const float f = medium.phase().eval(mu);
       const Merges merges = merges_at(weights_, medium, mu);
       const auto pdf_w = static_cast<double>(f);
-      const double beside =
-          weights_.beside_merge(map_.sums_at(scene_, weights_, beam, crossing.on_second), pdf_w) +
-          weights_.beside_merge(sums_at(crossing.on_first), pdf_w);
+      const double beside = weights_.beside_merge(map_.sums_at(scene_, weights_, beam, crossing.on_second), pdf_w) +
+                            weights_.beside_merge(sums_at(crossing.on_first), pdf_w);
       add(Technique::kBeamBeam,
           flight.segment.flux_at(crossing.on_first, medium) * beam.segment.flux_at(crossing.on_second, medium) *
               medium.sigma_s() * (f * scale / crossing.sine),

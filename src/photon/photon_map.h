@@ -27,8 +27,8 @@ class PhotonMap {
   const PointTree& collisions() const { return collisions_; }
   const PointTree& surfaces() const { return surfaces_; }
 
-  /// Calls visit(beam, from, to) for pieces of beams that a ray may come near to, or a point may lie near to; each piece
-  /// is the part of a beam between two distances along it, and no two pieces of a beam overlap.
+  /// Calls visit(beam, from, to) for pieces of beams that a ray may come near to, or a point may lie near to; each
+  /// piece is the part of a beam between two distances along it, and no two pieces of a beam overlap.
   template <class Visit>
   void beams_along(const Ray& ray, const Visit& visit) const {
     beams_.along(ray, [&](uint32_t number) { call(number, visit); });

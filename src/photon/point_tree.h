@@ -33,10 +33,10 @@ class PointTree {
     float split;
     int axis;
   };
-  static constexpr size_t kLeaf = 8;  ///< most points of a leaf
-  static constexpr size_t kParallel = 1 << 14;   ///< least points of a part that is split by two threads
-  static constexpr size_t kMostTasks = 64;       ///< two for each level
-  static constexpr float kWider = 1.001f;        ///< of what is reported: the caller decides
+  static constexpr size_t kLeaf = 8;            ///< most points of a leaf
+  static constexpr size_t kParallel = 1 << 14;  ///< least points of a part that is split by two threads
+  static constexpr size_t kMostTasks = 64;      ///< two for each level
+  static constexpr float kWider = 1.001f;       ///< of what is reported: the caller decides
   void split(size_t node, size_t from, size_t to);
   static size_t middle(size_t from, size_t to) { return from + (to - from) / 2; }
 
@@ -105,8 +105,8 @@ void PointTree::along(const Ray& ray, float radius, const Visit& visit) const {
         else
           t0 = std::max(t0, cut - slack);
       }
-      stack[count++] = upper ? Task{2 * task.node + 2, mid, task.to, t0, t1}
-                             : Task{2 * task.node + 1, task.from, mid, t0, t1};
+      stack[count++] =
+          upper ? Task{2 * task.node + 2, mid, task.to, t0, t1} : Task{2 * task.node + 1, task.from, mid, t0, t1};
     };
     push(false);
     push(true);

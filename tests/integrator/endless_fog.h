@@ -18,8 +18,8 @@ inline std::string endless_fog(int pixels) {
          pieces::integer("width", pixels) + pieces::integer("height", pixels) + R"(<rfilter type="box"/></film></sensor>
   <emitter type="point"><point name="position" value="0, 0, 1"/><rgb name="intensity" value="1"/></emitter>)" +
          pieces::ball("0, 0, 0", static_cast<float>(kFar),
-              R"(<bsdf type="null"/>)" +
-                  pieces::medium("interior", "0.25, 0.25, 0.25", "0.8, 0.8, 0.8", static_cast<float>(kG))) +
+                      R"(<bsdf type="null"/>)" +
+                          pieces::medium("interior", "0.25, 0.25, 0.25", "0.8, 0.8, 0.8", static_cast<float>(kG))) +
          "</scene>";
 }
 
@@ -107,7 +107,7 @@ inline Estimate estimate(const std::string& contestant, double radius, const Eff
 }
 
 inline void expect_expectation(const std::string& contestant, double radius, const Effort& effort,
-                        double (*expectation)(double)) {
+                               double (*expectation)(double)) {
   const Estimate found = estimate(contestant, radius, effort);
   const double expected = expectation(radius), bias = expected / truth() - 1;
   std::printf("%-26s radius %.2f: bias %8.5f by quadrature, %8.5f +- %.5f found\n", contestant.c_str(), radius, bias,

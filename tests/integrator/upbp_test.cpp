@@ -103,8 +103,8 @@ TEST_P(UpbpTechnique, AgreesWithBdpt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sets, UpbpTechnique,
-                         ::testing::Values("surf+pp3d", "surf+pb2d", "surf+bp2d", "surf+bb1d", "bpt+pb2d",
-                                           "bpt+bb1d", "surf+pp3d+pb2d+bp2d+bb1d", "bpt+surf+pp3d+pb2d+bp2d+bb1d"),
+                         ::testing::Values("surf+pp3d", "surf+pb2d", "surf+bp2d", "surf+bb1d", "bpt+bb1d",
+                                           "surf+pp3d+pb2d+bp2d+bb1d", "bpt+surf+pp3d+pb2d+bp2d+bb1d"),
                          [](const auto& instance) { return name_of(instance.param); });
 
 TEST(Upbp, LongAndShortBeamsAgree) {
@@ -134,7 +134,8 @@ TEST_P(UpbpEverywhere, AgreesWithBdpt) {
 INSTANTIATE_TEST_SUITE_P(SlowScenes, UpbpEverywhere, ::testing::ValuesIn(suite()),
                          [](const auto& instance) { return name_of(instance.param.name); });
 
-// --- what users say ----------------------------------------------------------------------------------------------------
+// --- what users say
+// ----------------------------------------------------------------------------------------------------
 
 std::string message_of(const std::string& settings) {
   try {

@@ -123,8 +123,8 @@ double others(const Path& path, const StrategyWeights& weights, int s) {
     return (path.light_can_be_hit ? weights.power(light_made_by_sensor / path.direct) : 0) +
            weights.others(sensor, path.start * path.start_w * path.towards_sensor[0] / path.direct,
                           path.from_light_w[1], path.merges[1].sum());
-  const double sum = weights.others(light, light_made_by_sensor, path.from_sensor_w[index(s - 1)],
-                                    path.merges[index(s - 1)].sum());
+  const double sum =
+      weights.others(light, light_made_by_sensor, path.from_sensor_w[index(s - 1)], path.merges[index(s - 1)].sum());
   if (s == path.k) return sum;
   return sum + weights.others(sensor, path.from_light_w[index(s - 1)] * path.towards_sensor[index(s - 1)],
                               path.from_light_w[index(s)], path.merges[index(s)].sum());
@@ -167,8 +167,8 @@ TEST_P(StrategySumsOf, AreThoseOfAllDensitiesMultipliedOut) {
       const Merges& m = path.merges[static_cast<size_t>(i)];
       if (!(m.sum() > 0)) continue;
       const std::vector<double> powers = merge_powers(path, weights, i);
-      const double beside = beside_merge(path, weights, i), own[] = {m.point_point, m.point_beam, m.beam_point,
-                                                                     m.beam_beam};
+      const double beside = beside_merge(path, weights, i),
+                   own[] = {m.point_point, m.point_beam, m.beam_point, m.beam_beam};
       for (size_t kind = 0; kind < powers.size(); ++kind) {
         const double weight = StrategyWeights::merge_weight(own[kind], m.sum(), beside);
         ASSERT_NEAR(weight, powers[kind] / total, 1e-9) << "merge " << kind << " at " << i << " of " << path.k;

@@ -21,8 +21,7 @@ constexpr const char* kHead = R"(<scene version="3.0.0">
 const std::string kWax = R"(<bsdf type="null"/><medium name="interior" type="homogeneous">
     <rgb name="sigma_s" value="2"/><rgb name="sigma_a" value="0"/></medium>)";
 const std::string kWick = R"(<bsdf type="diffuse"><rgb name="reflectance" value="0.1294, 0.1020, 0.0745"/></bsdf>)";
-const std::string kLight =
-    R"(<bsdf type="null"/><emitter type="area"><rgb name="radiance" value="100"/></emitter>)";
+const std::string kLight = R"(<bsdf type="null"/><emitter type="area"><rgb name="radiance" value="100"/></emitter>)";
 const std::string kBlack = R"(<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>)";
 
 std::string content_of(const std::string& group) {

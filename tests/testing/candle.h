@@ -9,8 +9,8 @@ namespace turbid::testing {
 std::filesystem::path candle_folder();
 std::string candle_absent();
 
-/// Writes the candle into `folder` as a Mitsuba scene, one mesh per group, and returns the scene file. Parameters of the
-/// scene: size (pixels), max_depth.
+/// Writes the candle into `folder` as a Mitsuba scene, one mesh per group, and returns the scene file. Parameters of
+/// the scene: size (pixels), max_depth.
 std::filesystem::path write_candle(const std::filesystem::path& folder);
 
 }  // namespace turbid::testing
