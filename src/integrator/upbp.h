@@ -15,7 +15,7 @@ struct UpbpSettings {
   StrategyWeights::Heuristic heuristic = StrategyWeights::Heuristic::kBalance;
   float connections = 8;                        ///< BdptSettings::connections
   std::optional<float> radius, surface_radius;  ///< of kernels in media and on surfaces; empty: by the scene
-  float pixels = 1;                             ///< largest radius by the scene, in widths of what a pixel covers
+  float pixels = 0.5f;                          ///< largest radius by the scene, in widths of what a pixel covers
   float keep = 2.0f / 3;                        ///< of radius_factor
   bool long_beams = false, long_flights = false;
   int light_paths = 1;              ///< per pixel of each image

@@ -28,7 +28,7 @@ std::vector<Parameter> parameters(const std::string& techniques) {
         kNonNegative},
        {"surface_radius", ParameterType::kFloat, "0", "of disks on surfaces in the first image; 0: by pixels",
         kNonNegative},
-       {"pixels", ParameterType::kFloat, "1", "radii in widths of what a pixel covers, where they are 0", kPositive},
+       {"pixels", ParameterType::kFloat, "0.5", "radii in widths of what a pixel covers, where they are 0", kPositive},
        {"keep",
         ParameterType::kFloat,
         "0.6666667",
