@@ -45,6 +45,10 @@ class BidirectionalPathTracer : public SplattingIntegrator {
   std::optional<LightSources> sources_;
 };
 
+/// The parameter `heuristic` of bidirectional methods; `value`: its default.
+Parameter heuristic_parameter(const std::string& value);
+StrategyWeights::Heuristic heuristic_of(const Properties& properties);
+
 /// Row of the integrator table: `bdpt`.
 IntegratorPlugin bdpt_row();
 

@@ -13,8 +13,7 @@ float weight_of(double others) { return static_cast<float>(1 / (1 + others)); }
 // -----------------------------------------------------------------------------------------------------
 
 void LightSubpath::at_emitter(const Emission& emission, const Traveller& traveller) {
-  emission_ = emission;
-  start_edge();
+  LightRecorder::at_emitter(emission, traveller);
   const PathSettings& settings = context_.settings;
   if (settings.hide_emitters || settings.min_scattering > 0) return;
   const auto arrival = context_.sensor.arrive_from(emission, traveller);
@@ -44,44 +43,6 @@ void LightSubpath::at_collision(const CollisionEvent& event, const PathState& st
   join_with_sensor(vertex, traveller);
 }
 
-/// At the first vertex behind the light: next-event estimation from there, and finding the light by chance, against the
-/// start of the walk.
-StrategySums LightSubpath::first_sums(const End& end) const {
-  const Emission& emission = *emission_;
-  const Emitter& emitter = *emission.emitter;
-  const EmissionPdf& pdf = emission.ray.pdf;
-  const Vec3& direction = emission.ray.direction;
-  const double arrive = end_factor(end.events, end.cosine, straight_);
-  const double prob = to_double(emission.prob), direct_prob = to_double(context_.scene.choice_prob(emission.index));
-  const double through = end_factor(Spectrum(1.0f), 1, straight_);
-  StrategySums sums;
-  if (emitter.is_environment()) {
-    const auto& sky = static_cast<const EnvironmentEmitter&>(emitter);
-    const double here = prob * to_double(pdf.pdf_w);
-    sums.inverse_pdf = 1 / (to_double(pdf.pdf_a) * arrive);
-    sums.joint = weights_.power(direct_prob * to_double(sky.pdf_direct_w(-direction)) / here);
-    sums.behind = weights_.power(through / here);
-  } else if (emission.object) {
-    const auto& lamp = static_cast<const SurfaceEmitter&>(emitter);
-    const double here = prob * to_double(pdf.pdf_a);
-    const double inverse = inverse_square(end.position, emission.ray.origin);
-    const double back = to_double(std::abs(dot(emission.ray.ng, direction))) * inverse;
-    const double direct_w = to_double(lamp.pdf_direct_w(end.position, emission.ray.origin, emission.ray.ng));
-    sums.inverse_pdf = 1 / (to_double(pdf.pdf_w) * arrive * inverse);
-    sums.joint = weights_.power(direct_prob * direct_w * back / here);
-    sums.behind = weights_.power(back * through / here);
-  } else {
-    // Cannot be met by chance. Only the choice among lights tells next-event estimation from the walk, whose origin or
-    // direction is given.
-    const bool parallel = pdf.pdf_w == 0;
-    const double density =
-        parallel ? to_double(pdf.pdf_a) : to_double(pdf.pdf_w) * inverse_square(end.position, emission.ray.origin);
-    sums.inverse_pdf = 1 / ((density > 0 ? density : 1) * arrive);
-    sums.joint = emitter.can_be_aimed_at() ? weights_.power(direct_prob / prob) : 0;
-  }
-  return sums;
-}
-
 void LightSubpath::join_with_sensor(const Vertex& vertex, const Traveller& traveller) {
   if (!context_.settings.order_counts(vertex.order)) return;
   const auto way = context_.sensor.way_from(vertex.position);
@@ -96,7 +57,8 @@ void LightSubpath::join_with_sensor(const Vertex& vertex, const Traveller& trave
   const double pdf = to_double(arrival->pdf) * end_factor(vertex, wo, arrival->proxy);
   sink_->splat(context_.sensor.index_of(arrival->target.pixel),
                {.value = flux * arrival->weight,
-                .weight = weight_of(weights_.others(current_, pdf, to_double(scattered.pdf_back_w))),
+                .weight = weight_of(
+                    weights_.others(current_, pdf, to_double(scattered.pdf_back_w), merged_at(weights_, vertex, wo))),
                 .light_vertices = vertex.depth + 1,
                 .sensor_vertices = 1,
                 .order = vertex.order});
@@ -113,6 +75,12 @@ void SensorSubpath::gather(const Spectrum& value, double others, int light_verti
                  .order = order});
 }
 
+/// Without joins chance is the only way to paths that have no vertex to merge at, and no way to others.
+void SensorSubpath::gather_by_chance(const Spectrum& value, double others, const PathState& state) {
+  if (!weights_.joins() && others > 0) return;
+  gather(value, others, 0, state.depth + 1, state.order);
+}
+
 void SensorSubpath::on_segment(const Ray& way, const Medium& medium, const PathState& state,
                                const Traveller::Leg& leg) {
   SubpathRecorder::on_segment(way, medium, state, leg);
@@ -122,10 +90,11 @@ void SensorSubpath::on_segment(const Ray& way, const Medium& medium, const PathS
 }
 
 /// At the first vertex: light paths that are joined with the sensor against the sensor's ray.
-StrategySums SensorSubpath::first_sums(const End& end) const {
+StrategySums SensorSubpath::first_sums(const EdgeEnd& end, const Spectrum& straight) const {
   const auto way = context_.scene.sensor().connect(end.position, u_aperture_);
   if (!way) return {};
-  return {1 / (to_double(context_.sensor.pdf(*way)) * end_factor(end.events, end.cosine, straight_)), 1, 0};
+  const double pdf = to_double(context_.sensor.pdf(*way)) * end_factor(end.events, end.cosine, straight);
+  return {1 / pdf, weights_.joins() ? 1.0 : 0.0, 0};
 }
 
 void SensorSubpath::at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
@@ -137,20 +106,20 @@ void SensorSubpath::at_light(const Hit& hit, const Object& object, const Surface
   if (Le.is_black()) return;
   const size_t index = context_.scene.emitter_index(hit);
   const float cosine = std::abs(dot(point.ng, wo));
-  const StrategySums sums = arrive({point.p, Spectrum(1.0f), cosine}, state);
+  const StrategySums sums = arrive({point.p, Spectrum(1.0f), cosine}, state.depth, straight_);
   const EmissionPdf emission = emitter.emission_pdf(point.ng, wo);
   const double start = to_double(context_.sources.prob(index)) * to_double(emission.pdf_a) * sums.inverse_pdf;
   double others = weights_.power(start);
   if (state.depth == 1) {
-    others *= sums.joint;
+    others *= sums.joint;  // light joined with the sensor
   } else {
     const double direct_a = to_double(context_.scene.choice_prob(index)) *
-                            to_double(emitter.pdf_direct_w(last_.position, point.p, point.ng)) * to_double(cosine) *
-                            inverse_square(point.p, last_.position);
+                            to_double(emitter.pdf_direct_w(edge_.from.position, point.p, point.ng)) *
+                            to_double(cosine) * inverse_square(point.p, edge_.from.position);
     others = weights_.power(direct_a * sums.inverse_pdf) * sums.joint +
              others * weights_.power(to_double(emission.pdf_w)) * sums.behind;
   }
-  gather(state.throughput * Le, others, 0, state.depth + 1, state.order);
+  gather_by_chance(state.throughput * Le, others, state);
 }
 
 void SensorSubpath::at_escape(const PathState& state, const Traveller& traveller) {
@@ -163,33 +132,45 @@ void SensorSubpath::at_escape(const PathState& state, const Traveller& traveller
     const EmissionPdf emission = sky.emitter->emission_pdf({}, -direction);
     const double start = to_double(context_.sources.prob(sky.index)) * to_double(emission.pdf_w);
     double others = 0;
-    if (state.depth == 1) {
+    if (state.depth == 1 && weights_.joins()) {
       if (const auto way = context_.scene.sensor().connect_to_infinity(direction, u_aperture_))
         others = weights_.power(start / (to_double(context_.sensor.pdf(*way)) * through));
-    } else {
-      const StrategySums sums = weights_.next(last_sums_, departure_, through, back_factor());
+    } else if (state.depth > 1) {
+      const StrategySums sums = weights_.next(edge_.sums, edge_.by, through, edge_.back_factor(straight_));
       const double direct_w = to_double(sky.prob) * to_double(sky.emitter->pdf_direct_w(direction));
       others = weights_.power(direct_w * sums.inverse_pdf) * sums.joint +
                weights_.power(start * sums.inverse_pdf) * weights_.power(to_double(emission.pdf_a)) * sums.behind;
     }
-    gather(state.throughput * Le, others, 0, state.depth + 1, state.order);
+    gather_by_chance(state.throughput * Le, others, state);
   }
 }
 
-void SensorSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
-  current_ = arrive({event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given))}, state);
-  if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
+Vertex SensorSubpath::reach(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
   Vertex vertex(event, state, traveller.medium());
-  vertex.sums = current_;
-  estimate_direct(vertex, traveller);
+  vertex.sums = current_ =
+      arrive({event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given))}, state.depth, straight_);
+  return vertex;
+}
+
+Vertex SensorSubpath::reach(const CollisionEvent& event, const PathState& state) {
+  Vertex vertex(event, state);
+  vertex.sums = current_ = arrive({event.position, vertex.events}, state.depth, straight_);
+  return vertex;
+}
+
+void SensorSubpath::connect(const Vertex& vertex, const Traveller& traveller) {
+  if (!weights_.joins()) return;
+  if (vertex.is_surface() || !traveller.blind()) estimate_direct(vertex, traveller);
   join(vertex, traveller);
 }
 
+void SensorSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
+  const Vertex vertex = reach(event, state, traveller);
+  if (event.object.bsdf->flags() & lobe::kSmooth) connect(vertex, traveller);
+}
+
 void SensorSubpath::at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-  Vertex vertex(event, state);
-  vertex.sums = current_ = arrive({event.position, vertex.events}, state);
-  if (!traveller.blind()) estimate_direct(vertex, traveller);
-  join(vertex, traveller);
+  connect(reach(event, state), traveller);
 }
 
 void SensorSubpath::estimate_direct(const Vertex& vertex, const Traveller& traveller) {
@@ -227,7 +208,8 @@ double SensorSubpath::others_of_direct(const Vertex& vertex, const EmitterChoice
     walk *= light.delta ? inverse_square(vertex.position, light.position)
                         : to_double(emission.pdf_a) / to_double(std::abs(dot(light.ng, light.wi)));
   }
-  return others + weights_.others(vertex.sums, walk / direct, to_double(scattered.pdf_back_w));
+  return others + weights_.others(vertex.sums, walk / direct, to_double(scattered.pdf_back_w),
+                                  merged_at(weights_, vertex, light.wi));
 }
 
 /// Of the lines that make paths of k edges min(1, connections / k) are taken, systematically: the number does not

@@ -3,8 +3,8 @@
 
 #include "integrator/splatting_integrator.h"
 #include "path/join.h"
+#include "path/light_recorder.h"
 #include "path/sensor_connector.h"
-#include "path/subpath.h"
 
 namespace turbid {
 
@@ -20,9 +20,10 @@ struct BdptContext {
 };
 
 /// The subpath from a light: keeps its vertices, and joins each with the sensor (t = 1).
-class LightSubpath : public SubpathRecorder<TransportMode::kImportance> {
+class LightSubpath : public LightRecorder {
  public:
-  explicit LightSubpath(const BdptContext& context) : SubpathRecorder(context.weights), context_(context) {}
+  explicit LightSubpath(const BdptContext& context)
+      : LightRecorder(context.scene, context.weights), context_(context) {}
 
   void begin(ContributionSink& sink) {
     sink_ = &sink;
@@ -35,16 +36,11 @@ class LightSubpath : public SubpathRecorder<TransportMode::kImportance> {
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
 
  private:
-  StrategySums arrive(const End& end, const PathState& state) const {
-    return state.depth == 1 ? first_sums(end) : sums_at(end);
-  }
-  StrategySums first_sums(const End& end) const;
   void join_with_sensor(const Vertex& vertex, const Traveller& traveller);
 
   const BdptContext& context_;
   ContributionSink* sink_ = nullptr;
   std::vector<Vertex> vertices_;
-  std::optional<Emission> emission_;
 };
 
 /// The subpath from the sensor: at each vertex it asks for light (s = 1) and joins the vertices of a light subpath
@@ -69,21 +65,31 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
 
- private:
-  StrategySums arrive(const End& end, const PathState& state) const {
-    return state.depth == 1 ? first_sums(end) : sums_at(end);
+ protected:
+  /// The sums where an edge ends that lets `straight` through; `depth`: edges up to there.
+  StrategySums arrive(const EdgeEnd& end, int depth, const Spectrum& straight) const {
+    return depth == 1 ? first_sums(end, straight) : edge_.sums_at(weights_, end, straight);
   }
-  StrategySums first_sums(const End& end) const;
+  /// A vertex that the walk has arrived at.
+  Vertex reach(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
+  Vertex reach(const CollisionEvent& event, const PathState& state);
+  /// Asks for light there, and joins it with the light's subpath.
+  void connect(const Vertex& vertex, const Traveller& traveller);
+
+  const BdptContext& context_;
+  ContributionSink* sink_ = nullptr;
+
+ private:
+  StrategySums first_sums(const EdgeEnd& end, const Spectrum& straight) const;
   void gather(const Spectrum& value, double others, int light_vertices, int sensor_vertices, int order);
+  void gather_by_chance(const Spectrum& value, double others, const PathState& state);
   void estimate_direct(const Vertex& vertex, const Traveller& traveller);
   double others_of_direct(const Vertex& vertex, const EmitterChoice& choice, const DirectLightSample& light,
                           const Vertex::Scattering& scattered, const Spectrum& proxy) const;
   void join(const Vertex& vertex, const Traveller& traveller);
 
-  const BdptContext& context_;
   Sampler& sampler_;
   const std::vector<Vertex>& light_vertices_;
-  ContributionSink* sink_ = nullptr;
   Vec2 u_aperture_;
   Rng selection_;
 };

@@ -46,7 +46,9 @@ double work_of(const Counters& counters) {
     return found == counters.end() ? 0.0 : static_cast<double>(found->second);
   };
   return count("rays") + 0.7 * count("shadow_rays") + 1.0 * count("volumes") + 0.5 * count("light_segments") +
-         0.1 * count("volume_tests") + 0.3 * count("deposits");
+         0.1 * count("volume_tests") + 0.3 * count("deposits") + 0.2 * count("connections") + 0.5 * count("photons") +
+         1.0 * count("photon_beams") + 0.3 * count("point_queries") + 0.5 * count("beam_queries") +
+         0.05 * count("point_tests") + 0.1 * count("beam_tests") + 0.2 * count("merges");
 }
 
 double QTradeOff::best(double least) const {

@@ -6,6 +6,7 @@
 #include "integrator/mcrt.h"
 #include "integrator/particle_tracer.h"
 #include "integrator/path_tracer.h"
+#include "integrator/upbp.h"
 
 namespace turbid {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Integrators of Mitsuba 0.6 that make the picture of volpath in another way. Whoever adds one takes it off the list.
 std::map<std::string, std::string> advice_for_old_names() {
   std::map<std::string, std::string> advice;
-  for (const char* name : {"photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "adaptive", "irrcache"})
+  for (const char* name : {"ppm", "sppm", "mlt", "pssmlt", "erpt", "adaptive", "irrcache"})
     advice[name] = "'volpath' makes the same picture by path tracing (--integrator volpath)";
   return advice;
 }
@@ -32,10 +33,20 @@ IntegratorPlugin moment_row() {
 }
 
 IntegratorTable make_table() {
+  std::vector<IntegratorPlugin> rows = {path_row(),
+                                        direct_row(),
+                                        volpath_row(),
+                                        single_scatter_row(),
+                                        particle_tracer_row(),
+                                        bdpt_row(),
+                                        mcrt_row(),
+                                        vpl_row(),
+                                        vrl_row(),
+                                        moment_row(),
+                                        aov_row()};
+  for (IntegratorPlugin& row : upbp_rows()) rows.insert(rows.end() - 2, std::move(row));
   return IntegratorTable(
-      Category::kIntegrator,
-      {path_row(), direct_row(), volpath_row(), single_scatter_row(), particle_tracer_row(), bdpt_row(), mcrt_row(),
-       vpl_row(), vrl_row(), moment_row(), aov_row()},
+      Category::kIntegrator, std::move(rows),
       {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective"},
       advice_for_old_names());
 }

@@ -95,6 +95,8 @@ class SplattingIntegrator::PassSink final : public ContributionSink {
       const int order = std::min(contribution.order, kOrderClasses - 1);
       if (order >= layer.min_order && order <= layer.max_order) add(layer.channel, value);
     }
+    if (owner_.shows_techniques_) add(owner_.technique_channel(contribution.technique), value);
+    if (contribution.technique != Technique::kJoin) return;
     if (const int layer = owner_.strategy_layer(contribution.light_vertices, contribution.edges()); layer >= 0) {
       add(static_cast<size_t>(layer) * kChannels, value);
       add(static_cast<size_t>(layer + 1) * kChannels, contribution.value);
@@ -121,6 +123,11 @@ int SplattingIntegrator::strategy_layer(int light_vertices, int edges) const {
   return 2 * (before + light_vertices);
 }
 
+size_t SplattingIntegrator::technique_channel(Technique technique) const {
+  const int strategies = shown_edges_ > 0 ? strategy_layer(shown_edges_, shown_edges_) + 2 : 0;
+  return (static_cast<size_t>(strategies) + static_cast<size_t>(technique)) * kChannels;
+}
+
 std::vector<std::string> SplattingIntegrator::layer_names() const {
   std::vector<std::string> names;
   for (int edges = 1; edges <= shown_edges_; ++edges)
@@ -128,11 +135,15 @@ std::vector<std::string> SplattingIntegrator::layer_names() const {
       for (const char* kind : {"weighted", "plain"})
         for (const char* channel : {"R", "G", "B"})
           names.push_back(fmt::format("strategy.{}.{}.{}.{}", kind, edges, s, channel));
+  if (shows_techniques_)
+    for (const char* technique : kTechniqueNames)
+      for (const char* channel : {"R", "G", "B"}) names.push_back(fmt::format("technique.{}.{}", technique, channel));
   return names;
 }
 
 void SplattingIntegrator::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
   prepare_workers(scene);
+  if (!splats()) return;
   // The exponent of the largest value stays what it is for a resumed render.
   constexpr size_t kPilotPaths = 4096;
   constexpr uint64_t kMostRounds = 16;
@@ -165,6 +176,8 @@ bool SplattingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film
       const int layer = strategy_layer(edges, edges) + kind;
       splats.layers.try_emplace(static_cast<size_t>(layer) * kChannels, film.size(), largest_exponent_);
     }
+
+  if (shows_techniques_) splats.layers.try_emplace(technique_channel(Technique::kJoin), film.size(), largest_exponent_);
 
   const size_t pixels = film.pixel_count();
   std::vector<PixelSample> gathered(pixels);

@@ -42,9 +42,14 @@ class SplattingIntegrator : public Integrator {
     return true;
   }
 
+  /// False: the workers only gather, so that splats need no scale.
+  virtual bool splats() const { return true; }
+
   /// Writes the contributions of all strategies for paths of up to `max_edges` edges into layers of their own, named
   /// strategy.{weighted,plain}.EDGES.LIGHT_VERTICES.{R,G,B}.
   void show_strategies(int max_edges) { shown_edges_ = max_edges; }
+  /// Writes what each Technique contributes into layers of its own, named technique.NAME.{R,G,B}.
+  void show_techniques() { shows_techniques_ = true; }
 
  private:
   class PilotSink;
@@ -52,10 +57,13 @@ class SplattingIntegrator : public Integrator {
   struct Splats;
   /// Layer triple of a strategy, weighted; the plain one follows. Negative: not shown.
   int strategy_layer(int light_vertices, int edges) const;
+  /// The first channel of a technique; behind all strategies.
+  size_t technique_channel(Technique technique) const;
   void add_counters(const SampleCounters& counters);
 
   std::vector<OrderLayer> order_layers_;
   int shown_edges_ = 0;
+  bool shows_techniques_ = false;
   int largest_exponent_ = 0;  ///< of the splats of the pilot: they are below 2^largest_exponent
   mutable std::mutex mutex_;
   SampleCounters totals_;

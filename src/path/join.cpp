@@ -22,8 +22,10 @@ std::optional<Joined> join(const Scene& scene, const StrategyWeights& weights, c
       static_cast<double>(there.pdf_w) * end_factor(from_sensor, wi, passage.proxy) * inverse;
   return Joined{from_sensor.throughput * here.value * passage.transmittance * there.value * from_light.throughput *
                     static_cast<float>(inverse),
-                weights.others(from_light.sums, light_made_by_sensor, static_cast<double>(there.pdf_back_w)) +
-                    weights.others(from_sensor.sums, sensor_made_by_light, static_cast<double>(here.pdf_back_w))};
+                weights.others(from_light.sums, light_made_by_sensor, static_cast<double>(there.pdf_back_w),
+                               merged_at(weights, from_light, -wi)) +
+                    weights.others(from_sensor.sums, sensor_made_by_light, static_cast<double>(here.pdf_back_w),
+                                   merged_at(weights, from_sensor, wi))};
 }
 
 }  // namespace turbid

@@ -22,6 +22,19 @@ inline Passage look_along(const Traveller& traveller, const Vertex& vertex, cons
   return traveller.look_along(line, throughput, surface ? &*surface : nullptr);
 }
 
+/// StrategyWeights::merges_at for a collision in the medium that deflects by `mu`.
+inline Merges merges_at(const StrategyWeights& weights, const Medium& medium, float mu) {
+  if (!weights.merges_in_media()) return {};
+  const HomogeneousMedium* homogeneous = medium.as_homogeneous();
+  return weights.merges_at(homogeneous ? static_cast<double>(homogeneous->sigma_t().mean()) : 0, mu);
+}
+
+/// Sum of the powers of all merges at a vertex that is left in the direction `chosen` (unit).
+inline double merged_at(const StrategyWeights& weights, const Vertex& vertex, const Vec3& chosen) {
+  if (vertex.is_surface()) return weights.merged_at_surface();
+  return merges_at(weights, *vertex.medium, -dot(vertex.given, chosen)).sum();
+}
+
 /// 1/distance^2. (Two collisions may round to the same place.)
 inline double inverse_square(const Vec3& a, const Vec3& b) {
   constexpr float kLeast = 1e-30f;

@@ -20,6 +20,29 @@ class EdgeRecorder : public WalkRecorder {
   Spectrum straight_{1.0f};  ///< proxies along the edge so far
 };
 
+/// A vertex as the end of an edge, see end_factor.
+struct EdgeEnd {
+  Vec3 position;
+  Spectrum events;
+  float cosine = 1;
+};
+
+/// An edge of a walk that has left a vertex and may end anywhere.
+struct OpenEdge {
+  EdgeEnd from;
+  StrategySums sums;              ///< there ...
+  StrategyWeights::Departure by;  ///< ... and how it was left
+
+  /// end_factor at the beginning; `straight`: what the edge lets through, as a stand-in.
+  double back_factor(const Spectrum& straight) const { return end_factor(from.events, from.cosine, straight); }
+  /// The sums at an end of it.
+  StrategySums sums_at(const StrategyWeights& weights, const EdgeEnd& end, const Spectrum& straight) const {
+    const double inverse = inverse_square(end.position, from.position);
+    return weights.next(sums, by, inverse * end_factor(end.events, end.cosine, straight),
+                        inverse * back_factor(straight));
+  }
+};
+
 /// Keeps the StrategySums of a walk up to date: what both subpaths of bidirectional methods share. A recorder derives
 /// from it and sets current_ at each vertex: to sums_at(), or at the first one to what the start of its walk says.
 ///
@@ -35,46 +58,30 @@ class SubpathRecorder : public EdgeRecorder {
     StrategyWeights::Departure by;
     if (!(sample.flags & lobe::kDelta)) {
       const Bsdf::Eval back = event.object.bsdf->eval(event.point, sample.direction, event.given_local, kOpposite);
-      by = {false, static_cast<double>(sample.pdf_w), static_cast<double>(back.pdf_w)};
+      by = {false, static_cast<double>(sample.pdf_w), static_cast<double>(back.pdf_w), weights_.merged_at_surface()};
     }
     depart({event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, chosen))}, by);
   }
   void left_collision(const CollisionEvent& event, float mu, const Vec3&, const PathState&, const Traveller&) {
     const auto f = static_cast<double>(event.medium.phase().eval(mu));
-    depart({event.position, event.medium.proxy_sigma_t(event.position), 1}, {false, f, f});
+    depart({event.position, event.medium.proxy_sigma_t(event.position), 1},
+           {false, f, f, merges_at(weights_, event.medium, mu).sum()});
   }
 
  protected:
   static constexpr TransportMode kOpposite =
       kMode == TransportMode::kRadiance ? TransportMode::kImportance : TransportMode::kRadiance;
 
-  /// A vertex as the end of an edge, see end_factor.
-  struct End {
-    Vec3 position;
-    Spectrum events;
-    float cosine = 1;
-  };
-
   /// The sums at a vertex that the walk arrives at from another one.
-  StrategySums sums_at(const End& end) const {
-    const double inverse = inverse_square(end.position, last_.position);
-    return weights_.next(last_sums_, departure_, inverse * end_factor(end.events, end.cosine, straight_),
-                         inverse * back_factor());
-  }
-  /// end_factor of the last edge at its beginning.
-  double back_factor() const { return end_factor(last_.events, last_.cosine, straight_); }
+  StrategySums sums_at(const EdgeEnd& end) const { return edge_.sums_at(weights_, end, straight_); }
 
   const StrategyWeights& weights_;
   StrategySums current_;  ///< at the vertex where the walk is
-  End last_;              ///< the vertex that the edge began at ...
-  StrategySums last_sums_;
-  StrategyWeights::Departure departure_;  ///< ... and how it was left
+  OpenEdge edge_;         ///< that it left
 
  private:
-  void depart(const End& from, const StrategyWeights::Departure& by) {
-    last_ = from;
-    last_sums_ = current_;
-    departure_ = by;
+  void depart(const EdgeEnd& from, const StrategyWeights::Departure& by) {
+    edge_ = {from, current_, by};
     start_edge();
   }
 };

@@ -91,8 +91,8 @@ TEST_F(Info, NamesTheIntegratorThatIgnoresMedia) {
 }
 
 TEST_F(Info, SaysWhichIntegratorsOfOldArePathTracingHere) {
-  expect_words(about(kSky, "photonmapper"),
-               "integrator 'photonmapper' is not supported: 'volpath' makes the same picture by path tracing "
+  expect_words(about(kSky, "sppm"),
+               "integrator 'sppm' is not supported: 'volpath' makes the same picture by path tracing "
                "(--integrator volpath)");
 }
 

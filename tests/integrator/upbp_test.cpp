@@ -1,0 +1,158 @@
+// Photon points, photon beams and paths: `upbp` and its presets against themselves and against `bdpt`.
+#include "integrator/upbp.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include "integrator/agreement.h"
+#include "integrator/suite.h"
+
+namespace turbid::testing {
+namespace {
+
+using namespace pieces;
+
+const SuiteScene& suite_scene(const std::string& name) {
+  static const std::vector<SuiteScene> scenes = suite();
+  return *std::find_if(scenes.begin(), scenes.end(), [&](const SuiteScene& scene) { return scene.name == name; });
+}
+
+std::string name_of(std::string name) {
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+}
+
+Film render_upbp(const std::string& settings, uint32_t samples, int threads = 2,
+                 const std::string& xml = suite_scene("lamp in fog, any length").xml) {
+  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
+  std::vector<std::pair<std::string, std::string>> values;
+  const size_t comma = std::min(settings.find(','), settings.size());
+  for (size_t at = comma + 1; at < settings.size();) {
+    const size_t end = std::min(settings.find(',', at), settings.size()), equals = settings.find('=', at);
+    values.emplace_back(settings.substr(at, equals - at), settings.substr(equals + 1, end - equals - 1));
+    at = end + 1;
+  }
+  const auto replaced = replace_integrator(loaded.integrator, settings.substr(0, comma), values);
+  const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
+  const Scene scene(std::move(loaded.parts));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute([&] { return render_with(scene, *setup.integrator, samples); });
+}
+
+void expect_same(const Film& a, const Film& b) {
+  for (size_t i = 0; i < a.pixel_count(); ++i)
+    for (int c = 0; c < kChannels; ++c) EXPECT_EQ(a.pixel(i).radiance[c], b.pixel(i).radiance[c]) << i;
+}
+
+// --- the same sums ---------------------------------------------------------------------------------------------------
+
+TEST(Upbp, IsBdptWithoutMerging) {
+  for (const char* heuristic : {"power", "balance"}) {
+    const std::string rest = std::string(",heuristic=") + heuristic;
+    expect_same(render_upbp("upbp,techniques=bpt" + rest, 4), render_upbp("bdpt" + rest, 4));
+  }
+}
+
+TEST(Upbp, DoesNotDependOnThreads) {
+  expect_same(render_upbp("upbp,techniques=bpt+surf+pp3d+pb2d+bp2d+bb1d", 2, 1),
+              render_upbp("upbp,techniques=bpt+surf+pp3d+pb2d+bp2d+bb1d", 2, 3));
+}
+
+TEST(Upbp, TechniquesAddUpToTheImage) {
+  const std::string all = "upbp,techniques=bpt+surf+pp3d+pb2d+bp2d+bb1d,radius=0.2";
+  const Film film = render_upbp(all + ",visualize_techniques=true", 8), without = render_upbp(all, 8);
+  const std::vector<std::string>& names = film.layer_names();
+  ASSERT_EQ(names.size(), 3 * kTechniqueNames.size());
+  std::vector<double> sums(names.size());
+  for (size_t i = 0; i < film.pixel_count(); ++i) {
+    double sum = 0;
+    for (size_t k = 0; k < names.size(); k += 3) sum += film.layers(i)[k];
+    for (size_t k = 0; k < names.size(); ++k) sums[k] += film.layers(i)[k];
+    EXPECT_NEAR(sum, film.pixel(i).radiance[0], 1e-3 * (1 + film.pixel(i).radiance[0]));
+    EXPECT_EQ(film.pixel(i).radiance[0], without.pixel(i).radiance[0]);
+  }
+  for (size_t k = 0; k < names.size(); ++k) EXPECT_GT(sums[k], 0) << names[k] << " contributes nothing";
+}
+
+// --- small radii make the picture of bdpt ----------------------------------------------------------------------------
+
+/// Radii small enough that their bias is under the noise, and wide enough that light finds kernels in every pass.
+void expect_bdpt(const SuiteScene& scene, const std::string& contestant, uint32_t samples, size_t comparisons,
+                 double largest_error = 1) {
+  const int block = 16;
+  const Observation reference = observe(scene.xml, {"bdpt", samples * scene.effort, 1, 1}, block);
+  const Agreement agreement = compare(reference, observe(scene.xml, {contestant, samples * scene.effort, 1, 2}, block));
+  if (!agreement.cannot.empty()) return;
+  EXPECT_TRUE(agreement.accepted(comparisons)) << scene.name << ", " << contestant << "\n" << agreement.report();
+  EXPECT_LT(agreement.ratio_error[0], largest_error) << scene.name << ", " << contestant;
+}
+
+const char* const kSmall = ",radius=0.03,surface_radius=0.03,keep=1,beam_paths=1000";
+
+class UpbpTechnique : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(UpbpTechnique, AgreesWithBdpt) {
+  // Balls find little: they are larger, and there is more light for them.
+  const bool balls = std::string(GetParam()).ends_with("pp3d");
+  const char* const rest = balls ? ",radius=0.12,surface_radius=0.03,keep=1,light_paths=16" : kSmall;
+  for (const char* name : {"lamp in fog, any length", "chromatic medium", "laser in fog"})
+    expect_bdpt(suite_scene(name), fmt::format("upbp,techniques={}{}", GetParam(), rest), 8, 30);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, UpbpTechnique,
+                         ::testing::Values("surf+pp3d", "surf+pb2d", "surf+bp2d", "surf+bb1d", "bpt+bb1d",
+                                           "surf+pp3d+pb2d+bp2d+bb1d", "bpt+surf+pp3d+pb2d+bp2d+bb1d"),
+                         [](const auto& instance) { return name_of(instance.param); });
+
+TEST(Upbp, LongAndShortBeamsAgree) {
+  for (const char* kind : {",photon_beams=long", ",sensor_beams=long", ",photon_beams=long,sensor_beams=long"})
+    for (const char* techniques : {"surf+pb2d+bb1d", "bpt+surf+pb2d+bp2d+bb1d"})
+      expect_bdpt(suite_scene("chromatic medium"), fmt::format("upbp,techniques={}{}{}", techniques, kSmall, kind), 8,
+                  10);
+}
+
+TEST(Upbp, HarnessNoticesAPlantedError) {
+  const std::string& xml = suite_scene("lamp in fog, any length").xml;
+  const std::string all = fmt::format("upbp,techniques=bpt+surf+pp3d+pb2d+bp2d+bb1d{}", kSmall);
+  const Observation right = observe(xml, {"bdpt", 16}, 16);
+  EXPECT_FALSE(compare(right, observe(xml, {all, 16, 1.04, 2}, 16)).accepted());
+  EXPECT_TRUE(compare(right, observe(xml, {all, 16, 1, 2}, 16)).accepted());
+}
+
+class UpbpEverywhere : public ::testing::TestWithParam<SuiteScene> {};
+
+TEST_P(UpbpEverywhere, AgreesWithBdpt) {
+  const std::vector<std::string> ways = {"bpt+surf+pp3d+pb2d+bp2d+bb1d", "surf+pp3d", "surf+pb2d", "surf+bb1d",
+                                         "bpt+bb1d,photon_beams=long,sensor_beams=long"};
+  for (const std::string& techniques : ways)
+    expect_bdpt(GetParam(), fmt::format("upbp,techniques={}{}", techniques, kSmall), 64, ways.size() * suite().size());
+}
+
+INSTANTIATE_TEST_SUITE_P(SlowScenes, UpbpEverywhere, ::testing::ValuesIn(suite()),
+                         [](const auto& instance) { return name_of(instance.param.name); });
+
+// --- what users say
+// ----------------------------------------------------------------------------------------------------
+
+std::string message_of(const std::string& settings) {
+  try {
+    render_upbp(settings, 1);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Upbp, RefusesWhatMakesNoSense) {
+  EXPECT_NE(message_of("upbp,techniques=bpt+pb3d").find("names 'pb3d', expected some of bpt, surf"), std::string::npos)
+      << message_of("upbp,techniques=bpt+pb3d");
+  EXPECT_NE(message_of("upbp,techniques=").find("must name some of"), std::string::npos);
+  EXPECT_NE(message_of("upbp,keep=0").find("(0, 1]"), std::string::npos);
+  EXPECT_NE(message_of("upbp,photon_beams=endless").find("short"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace turbid::testing
