@@ -13,7 +13,7 @@ inline constexpr double kSigmaT = 0.25, kSigmaS = 0.2, kG = 0.3, kFar = 40;
 /// A point light at height 1 over the line of sight, in fog without end; single scattering, one thin pencil of rays.
 inline std::string endless_fog(int pixels) {
   return R"(<scene version="3.0.0"><integrator type="volpath"><integer name="max_scattering" value="1"/></integrator>
-  <sensor type="perspective"><float name="fov" value="0.2"/><transform name="to_world">
+  <sensor type="perspective"><float name="fov" value="0.2"/><float name="near_clip" value="0"/><transform name="to_world">
   <lookat origin="0, -3, 0" target="0, 0, 0" up="0, 0, 1"/></transform><film type="hdrfilm">)" +
          pieces::integer("width", pixels) + pieces::integer("height", pixels) + R"(<rfilter type="box"/></film></sensor>
   <emitter type="point"><point name="position" value="0, 0, 1"/><rgb name="intensity" value="1"/></emitter>)" +

@@ -50,7 +50,7 @@ std::vector<Precision> seen_from_without(double largest_error) {
   const std::string far = lamp("0.8, 0.9, 3", kSmall, "3000, 4000, 5000");
   const std::string murky = kGlass + clear();
   const auto by_chance = [&](const std::string& name, const std::string& body, uint32_t followed) {
-    return Precision{name, scene(far + body), 4, "volpath", 196608, followed, largest_error};
+    return Precision{name, scene(far + body), 4, "volpath", 294912, followed, largest_error};
   };
   return {by_chance("sphere", sphere(murky), 512), by_chance("bumpy_sphere", bumpy(murky), 512),
           by_chance("slab", slab(murky), 1024),
