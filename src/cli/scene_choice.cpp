@@ -11,7 +11,7 @@
 #include "core/version.h"
 #include "image/atomic_file.h"
 #include "integrator/integrators.h"
-#include "render/hash.h"
+#include "core/hash.h"
 
 namespace turbid {
 namespace {

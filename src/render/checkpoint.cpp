@@ -9,7 +9,7 @@
 
 #include "core/error.h"
 #include "image/atomic_file.h"
-#include "render/hash.h"
+#include "core/hash.h"
 
 namespace turbid {
 namespace {

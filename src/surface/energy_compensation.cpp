@@ -7,7 +7,7 @@
 
 #include "core/parallel.h"
 #include "surface/fresnel.h"
-#include "surface/gauss_legendre.h"
+#include "core/gauss_legendre.h"
 
 namespace turbid {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/warp.h"
 #include "surface/fresnel.h"
-#include "surface/gauss_legendre.h"
+#include "core/gauss_legendre.h"
 #include "texture/constant.h"
 
 namespace turbid {

@@ -17,7 +17,7 @@ const std::filesystem::path kDoors = TURBID_DOORS;
 /// The rooms, lower ones first: none may see one that stands behind it.
 const std::vector<std::string> kRooms = {"core",       "image",     "geometry",   "texture", "surface",
                                          "medium",     "emitter",   "sensor",     "scene",   "path",
-                                         "refraction", "gathering", "integrator", "render",  "cli"};
+                                         "refraction", "gathering", "table",     "integrator", "render", "cli"};
 
 bool sees(const std::string& room, const std::string& other) {
   const std::vector<std::string> folders = read_lines(kDoors / room);

@@ -3,7 +3,7 @@
 
 #include "core/warp.h"
 #include "surface/bsdf_checks.h"
-#include "surface/gauss_legendre.h"
+#include "core/gauss_legendre.h"
 #include "surface/materials.h"
 
 namespace turbid::testing {

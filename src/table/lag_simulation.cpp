@@ -1,0 +1,112 @@
+#include "table/lag_simulation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "table/endless_walk.h"
+#include "table/sagittal_view.h"
+
+namespace turbid {
+namespace {
+
+/// Collects samples of one kind of source.
+class Collector {
+ public:
+  Collector(const TableShape& shape) : shape_(shape), cell_size_(shape.cell_size()) {
+    moments_.resize(shape.grid.cell_count() * cell_size_);
+    orders_.resize(shape.grid.cell_count() + 1);
+    counts_.resize(shape.grid.cell_count() + 1);
+  }
+
+  /// x: from the source to the last collision; axis: of the source; w: the direction into the last collision.
+  void add(const Vec3& x, const Vec3& axis, const Vec3& w, int order) {
+    const SagittalView view(x, axis, w);
+    const int i = static_cast<int>(shape_.grid.radial(view.distance));
+    const int j = std::min(static_cast<int>(shape_.grid.angular(view.cosine)), shape_.grid.angles() - 1);
+    const bool inside = i < shape_.grid.radii();
+    const size_t cell = inside ? shape_.grid.index(i, j) : shape_.grid.cell_count();
+    orders_[cell] += order;
+    counts_[cell] += 1;
+    if (!inside) return;
+    float* sums = moments_.data() + cell * cell_size_;
+    SagittalHarmonics::for_each_degree(
+        shape_.bands.degree, view.direction, [&](int, const SagittalHarmonics::Lanes& y) {
+          (SagittalHarmonics::load(sums) + y).copy_to(sums, std::experimental::element_aligned);
+          sums += SagittalHarmonics::kOrders;
+        });
+  }
+
+  void finish(size_t samples, std::vector<float>& moments, std::vector<float>& mean_order) {
+    for (float& sum : moments_) sum /= static_cast<float>(samples);
+    mean_order.resize(counts_.size());
+    for (size_t c = 0; c < counts_.size(); ++c)
+      mean_order[c] = counts_[c] > 0 ? static_cast<float>(orders_[c] / counts_[c]) : 0;
+    moments = std::move(moments_);
+  }
+
+ private:
+  const TableShape& shape_;
+  size_t cell_size_;
+  std::vector<float> moments_;
+  std::vector<double> orders_, counts_;
+};
+
+/// Flights between samples, and samples left out for them: pairs far apart change slowly, and what limits their noise
+/// is how far the walk went.
+size_t stride(int order) { return static_cast<size_t>(std::clamp(order / 64, 1, 32)); }
+size_t fewer(int order) { return order < 256 ? 1 : 4; }
+
+/// Independent walks side by side: each waits for its own last step alone.
+constexpr uint64_t kWalks = 4;
+
+void simulate_bin(const PhaseFunction& phase, const TableShape& shape, const SimulationSettings& settings,
+                  OrderBin& bin) {
+  // Order n is n - 1 flights after the first collision; one collision more is where that one's ray began.
+  std::vector<EndlessWalk> walks;
+  for (uint64_t w = 0; w < kWalks; ++w)
+    walks.emplace_back(phase, static_cast<size_t>(bin.last),
+                       hash_counters(settings.seed, static_cast<uint64_t>(bin.first), w));
+  Collector collision(shape), ray(shape);
+  const size_t rounds = (settings.deposits / fewer(bin.first) + kWalks - 1) / kWalks;
+  for (size_t n = 0; n < rounds; ++n) {
+    for (size_t s = stride(bin.first); s > 0; --s)
+      for (EndlessWalk& walk : walks) walk.step();
+    for (EndlessWalk& walk : walks) {
+      const int order =
+          bin.first + static_cast<int>(uint64_t{walk.rng().next_u32()} * static_cast<uint64_t>(bin.count()) >> 32);
+      const auto flights = static_cast<size_t>(order - 1);
+      const EndlessWalk::Collision &first = walk.back(flights), &last = walk.back(0);
+      collision.add(Vec3(last.position - first.position), first.direction, last.direction, order);
+      ray.add(Vec3(last.position - walk.back(flights + 1).position), first.direction, last.direction, order);
+    }
+  }
+  const auto kind = [](SourceKind k) { return static_cast<size_t>(k); };
+  collision.finish(rounds * kWalks, bin.moments[kind(SourceKind::kCollision)],
+                   bin.mean_order[kind(SourceKind::kCollision)]);
+  ray.finish(rounds * kWalks, bin.moments[kind(SourceKind::kRay)], bin.mean_order[kind(SourceKind::kRay)]);
+}
+
+}  // namespace
+
+std::vector<std::pair<int, int>> order_bins() {
+  std::vector<std::pair<int, int>> bins;
+  for (int n = 3; n <= 10; ++n) bins.emplace_back(n, n);
+  int first = 11;
+  for (int half_octave = 1; half_octave <= 22; ++half_octave) {
+    const int next = static_cast<int>(std::lround(11 * std::exp2(half_octave / 2.0)));
+    bins.emplace_back(first, next - 1);
+    first = next;
+  }
+  return bins;
+}
+
+std::vector<OrderBin> simulate_orders(const PhaseFunction& phase, const TableShape& shape,
+                                      const SimulationSettings& settings) {
+  std::vector<OrderBin> bins;
+  for (const auto& [first, last] : order_bins()) bins.push_back({first, last, {}, {}});
+  parallel_for(bins.size(), [&](size_t b) { simulate_bin(phase, shape, settings, bins[b]); });
+  return bins;
+}
+
+}  // namespace turbid

@@ -1,0 +1,153 @@
+#include "table/scattering_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.h"
+
+namespace turbid {
+namespace {
+
+constexpr size_t kOrders = SagittalHarmonics::kOrders;
+
+/// sum albedo^(n-5) over a bin's orders, for what lies in one cell: the sum over the bin, shared out among the cells in
+/// proportion to albedo^n of each cell's own mean order n.
+class BinWeight {
+ public:
+  BinWeight(const OrderBin& bin, size_t kind, const TableShape& shape, double albedo)
+      : mean_order_(bin.mean_order[kind]), middle_((bin.first + bin.last) / 2.0), tilt_(bin.count() > 1 && albedo > 0) {
+    for (int n = bin.first; n <= bin.last; ++n) sum_ += n == 5 ? 1 : std::pow(albedo, n - 5);
+    tilt_ = tilt_ && sum_ > 1e-30;
+    if (!tilt_) return;
+    logarithm_ = std::log(albedo);
+    const size_t cells = shape.grid.cell_count();
+    double inside = 0, shares = 0;
+    for (size_t cell = 0; cell < cells; ++cell) {
+      const double content =
+          static_cast<double>(bin.moments[kind][cell * shape.cell_size()]) * std::sqrt(4 * std::numbers::pi);
+      inside += content;
+      if (content > 0) shares += content * share(cell);
+    }
+    if (inside < 1 - 1e-6) shares += (1 - inside) * share(cells);
+    sum_ /= shares;
+  }
+  double operator()(size_t cell) const { return tilt_ ? sum_ * share(cell) : sum_; }
+
+ private:
+  double share(size_t cell) const {
+    const double n = static_cast<double>(mean_order_[cell]);
+    return n > 0 ? std::exp(logarithm_ * (n - middle_)) : 0;
+  }
+
+  const std::vector<float>& mean_order_;
+  double middle_, logarithm_ = 0, sum_ = 0;
+  bool tilt_;
+};
+
+/// int Y_lm dV of one set in every cell.
+std::vector<float> gather_set(const std::vector<OrderBin>& bins, size_t kind, size_t set, const TableShape& shape) {
+  const size_t cell_size = shape.cell_size();
+  std::vector<float> contents(shape.grid.cell_count() * cell_size);
+  for (const OrderBin& bin : bins) {
+    if (set == ScatteringTable::kOrder3   ? bin.first != 3
+        : set == ScatteringTable::kOrder4 ? bin.first != 4
+                                          : bin.first < 5)
+      continue;
+    const BinWeight weight(bin, kind, shape, set < kAlbedoNodes ? albedo_at_node(static_cast<int>(set)) : 1);
+    for (size_t cell = 0; cell < shape.grid.cell_count(); ++cell) {
+      const double factor = weight(cell);
+      if (factor < 1e-30) continue;
+      const auto scale = static_cast<float>(factor);
+      for (size_t i = cell * cell_size; i < (cell + 1) * cell_size; ++i) contents[i] += scale * bin.moments[kind][i];
+    }
+  }
+  return contents;
+}
+
+/// Contents of cells to values at nodes. Sharpening may overshoot where light falls off steeply within a cell: those
+/// cells keep their plain mean. What that changes in the whole is made good by one factor.
+void sharpen(std::vector<float>& values, const TableShape& shape) {
+  const size_t cell_size = shape.cell_size();
+  const std::vector<float> contents = values;
+  shape.grid.to_nodes(values, cell_size, kOrders);
+  double inside = 0;
+  std::vector<float> density(shape.grid.cell_count());
+  for (int i = 0; i < shape.grid.radii(); ++i)
+    for (int j = 0; j < shape.grid.angles(); ++j) {
+      const size_t cell = shape.grid.index(i, j);
+      float* value = values.data() + cell * cell_size;
+      const float* content = contents.data() + cell * cell_size;
+      const auto scale = static_cast<float>(shape.grid.mean_of_content(i, j));
+      inside += static_cast<double>(content[0]);
+      const float mean = content[0] * scale;
+      if (!(value[0] > 0.3f * mean && value[0] < 3 * mean))
+        for (size_t c = 0; c < cell_size; ++c) value[c] = content[c] * scale;
+      density[cell] = value[0];
+    }
+  const double whole = shape.grid.content(density);
+  if (!(whole > 0)) return;
+  for (float& value : values) value *= static_cast<float>(inside / whole);
+}
+
+ScatteringTable::Kind pack(const std::vector<OrderBin>& bins, size_t kind, const ScatteringTable& table) {
+  const size_t cells = table.shape.grid.cell_count(), cell_size = table.shape.cell_size();
+  const auto coefficients = table.coefficients();
+  std::array<std::vector<float>, ScatteringTable::kSets> sets;
+  parallel_for(sets.size(), [&](size_t set) {
+    sets[set] = gather_set(bins, kind, set, table.shape);
+    sharpen(sets[set], table.shape);
+  });
+  const auto ratio = [&](size_t set, size_t cell, size_t c) {
+    const auto [l, m] = coefficients[c];
+    const float* value = sets[set].data() + cell * cell_size;
+    if (!(value[0] > 0)) return 0.0f;
+    return value[static_cast<size_t>(l) * kOrders + static_cast<size_t>(m)] / value[0] *
+           static_cast<float>(table.moments[static_cast<size_t>(l)]);
+  };
+  ScatteringTable::Kind result;
+  result.density.resize(sets.size() * cells);
+  result.step.resize(coefficients.size());
+  result.ratios.resize(sets.size() * cells * coefficients.size());
+  for (size_t set = 0; set < sets.size(); ++set)
+    for (size_t cell = 0; cell < cells; ++cell) {
+      result.density[set * cells + cell] = sets[set][cell * cell_size];
+      for (size_t c = 0; c < coefficients.size(); ++c)
+        result.step[c] = std::max(result.step[c], std::abs(ratio(set, cell, c)) / 127);
+    }
+  for (size_t set = 0; set < sets.size(); ++set)
+    for (size_t cell = 0; cell < cells; ++cell)
+      for (size_t c = 0; c < coefficients.size(); ++c)
+        result.ratios[(set * cells + cell) * coefficients.size() + c] =
+            result.step[c] > 0 ? static_cast<int8_t>(std::lround(ratio(set, cell, c) / result.step[c])) : int8_t{0};
+  return result;
+}
+
+}  // namespace
+
+double albedo_at_node(int node) {
+  const double last = std::pow(1 - kLargestAlbedo, 0.25);
+  return 1 - std::pow(1 + (last - 1) * node / (kAlbedoNodes - 1), 4);
+}
+
+std::vector<std::pair<int, int>> ScatteringTable::coefficients() const {
+  std::vector<std::pair<int, int>> result;
+  for (int l = 1; l <= shape.bands.degree; ++l)
+    for (int m = 0; m <= std::min(l, shape.bands.order); ++m) result.emplace_back(l, m);
+  return result;
+}
+
+size_t ScatteringTable::size() const {
+  size_t bytes = moments.size() * sizeof(double);
+  for (const Kind& kind : kinds) bytes += (kind.density.size() + kind.step.size()) * sizeof(float) + kind.ratios.size();
+  return bytes;
+}
+
+ScatteringTable build_table(const PhaseFunction& phase, const TableShape& shape, const SimulationSettings& settings) {
+  ScatteringTable table{shape, legendre_moments(phase, 64), settings.seed, settings.deposits, {}};
+  const std::vector<OrderBin> bins = simulate_orders(phase, shape, settings);
+  for (size_t kind = 0; kind < kSourceKinds; ++kind) table.kinds[kind] = pack(bins, kind, table);
+  return table;
+}
+
+}  // namespace turbid
