@@ -108,8 +108,8 @@ LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albed
     throw std::invalid_argument(
         fmt::format("tables of multiple scattering begin at order 3, 4 or 5, not {}", from_order));
   if (kind == SourceKind::kRay) centre_ += 1;
-  const double far = std::max(std::min(1.5 * kFarField / static_cast<double>(decay_), kSurelySampled),
-                              kFarField / static_cast<double>(decay_));
+  const double lengths = 1 / static_cast<double>(decay_);
+  const double far = std::max({kNoFarField, kFarField * lengths, std::min(1.5 * kFarField * lengths, kSurelySampled)});
   edge_ = static_cast<float>(std::min(grid_.middle(grid_.radii() - 1), far));
   nodes_.resize(grid_.cell_count() * cell_size_);
   const Unpacker unpacker(table, kind);

@@ -27,9 +27,9 @@ class LobeField {
 
  private:
   /// Where the far field begins, over the decay length: 9 % of the energy lies beyond. At high albedo the samples there
-  /// are too few to keep; within kSurelySampled mean free paths they serve for half as far again.
-  static constexpr double kFarField = 4;
-  static constexpr double kSurelySampled = 60;
+  /// are too few to keep; within kSurelySampled mean free paths they serve for half as far again. At low albedo light
+  /// is not diffuse before it is gone: no far field within kNoFarField.
+  static constexpr double kFarField = 4, kSurelySampled = 60, kNoFarField = 20;
 
   using Lanes = SagittalHarmonics::Lanes;
   /// The four nodes around a place, and the factor of their interpolant.

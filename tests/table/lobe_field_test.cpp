@@ -119,18 +119,24 @@ TEST(LobeField, EndsInTheDiffuseFarField) {
   const LobeField field(small_table(0.7f), SourceKind::kCollision, albedo);
   const double d = 1 / (3 * (1 - g * albedo)), k = std::sqrt(3 * (1 - albedo) * (1 - g * albedo));
   const double centre = g / (1 - g * albedo);
-  for (const double r : {20.0, 35.0, 50.0, 100.0}) {
-    double ratio = 0;
+  // Over the diffusion approximation with this decay, the mean over directions.
+  const auto ratio = [&](double r, double decay) {
+    double sum = 0;
     constexpr int kSteps = 32;
     for (int i = 0; i < kSteps; ++i) {
       const double c = -1 + 2 * (i + 0.5) / kSteps;
       const double from_centre = std::sqrt(r * r - 2 * r * centre * c + centre * centre);
       const Vec3 x(Imath::V3d(r * std::sqrt(1 - c * c), 0, r * c));
-      ratio += static_cast<double>(field.density(x, kAxis)) /
-               (albedo * albedo * std::exp(-k * from_centre) / (4 * pi * d * from_centre)) / kSteps;
+      sum += static_cast<double>(field.density(x, kAxis)) /
+             (albedo * albedo * std::exp(-decay * from_centre) / (4 * pi * d * from_centre)) / kSteps;
     }
-    EXPECT_NEAR(ratio, 1, 0.06) << r;
-  }
+    return sum;
+  };
+  for (const double r : {15.0, 25.0, 40.0}) EXPECT_NEAR(ratio(r, k), 1, 0.05) << r;
+  // Beyond the edge, at 60 mean free paths, the decay is that of transport.
+  const double exact = decay_rate(small_table(0.7f).moments, albedo);
+  EXPECT_NEAR(ratio(150, exact) / ratio(61, exact), 1, 0.01);
+  EXPECT_GT(std::abs(ratio(150, k) / ratio(61, k) - 1), 0.03);
 }
 
 TEST(LobeField, IsTheSameForAnyNumberOfThreads) {

@@ -34,10 +34,12 @@ float by_collisions(const MultipleScattering& light, const Stretch& stretch, flo
 }
 
 /// Mean deviation of a stretch's light from that of its collisions, relative to the mean; per channel 0.
-double stretch_error(float g, float albedo, float depth, double* bias = nullptr) {
+double stretch_error(float g, float albedo, float depth, float told_depth, double* bias) {
   const float sigma_t = 2;
   const MultipleScattering light(medium(Spectrum(sigma_t), albedo, g), small_table(g));
   const Stretch stretch{{1, 2, 3}, normalize(Vec3(1, -2, 0.5f)), depth / sigma_t};
+  Stretch told = stretch;
+  told.length = told_depth / sigma_t;
   Rng rng(11);
   double deviation = 0, difference = 0, sum = 0;
   for (int i = 0; i < 400; ++i) {
@@ -46,13 +48,13 @@ double stretch_error(float g, float albedo, float depth, double* bias = nullptr)
     const Vec3 x = stretch.origin + stretch.direction * (std::min(depth, 2.0f) / sigma_t * rng.next_float()) +
                    direction(rng) * away;
     const Vec3 w = direction(rng);
-    const double expected = static_cast<double>(by_collisions(light, stretch, sigma_t, x, w)) * sqr(double{away});
+    const double expected = static_cast<double>(by_collisions(light, told, sigma_t, x, w)) * sqr(double{away});
     const double found = static_cast<double>(light.source_radiance(stretch, x, w)[0]) * sqr(double{away});
     deviation += std::abs(found - expected);
     difference += found - expected;
     sum += expected;
   }
-  if (bias) *bias = difference / sum;
+  *bias = difference / sum;
   return deviation / sum;
 }
 
@@ -60,9 +62,13 @@ TEST(MultipleScattering, AStretchIsTheSumOfItsCollisions) {
   for (const float g : {0.0f, 0.7f})
     for (const float depth : {0.05f, 0.19f, 0.5f, 0.99f, 1.01f, 2.0f, kInfinity}) {
       double bias = 0;
-      // Two independently simulated tables; each has 2 % noise (g = 0) and 5 % (g = 0.7).
-      EXPECT_LT(stretch_error(g, 0.9f, depth, &bias), g > 0 ? 0.09 : 0.04) << "g " << g << ", depth " << depth;
+      // Two tables simulated apart. Noise of a look-up in these small ones, which the difference of two makes larger.
+      const double noise = g > 0 ? 0.045 : 0.02;
+      const double larger = depth > 1 ? 1 / (1 - std::exp(-static_cast<double>(depth))) : 1;
+      EXPECT_LT(stretch_error(g, 0.9f, depth, depth, &bias), noise * (1 + larger)) << "g " << g << ", depth " << depth;
       EXPECT_NEAR(bias, 0, 0.02) << "g " << g << ", depth " << depth;
+      stretch_error(g, 0.9f, depth, depth < 1 ? 1.1f * depth : 0.7f * std::min(depth, 3.0f), &bias);
+      EXPECT_GT(std::abs(bias), 0.025) << "a stretch of another length is not noticed";
     }
 }
 
@@ -127,7 +133,7 @@ TEST(MultipleScattering, SensorRaysAreIntegrals) {
           [&](const Vec3& x) { return light.source_radiance(segment, x, -view.direction)[0]; });
       EXPECT_NEAR(segment_mean, 1, 0.01) << off << " " << length;
       // Where both rays all but cross, light rises like the logarithm of the distance.
-      EXPECT_LT(segment_rms, off < 0.1f ? 0.3 : 0.1) << off << " " << length << ": spread over u";
+      EXPECT_LT(segment_rms, off < 0.1f ? 0.3 : 0.15) << off << " " << length << ": spread over u";
     }
 }
 
