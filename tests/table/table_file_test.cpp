@@ -1,10 +1,11 @@
 #include "table/table_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <thread>
 
 #include "core/error.h"
 #include "image/atomic_file.h"
@@ -111,19 +112,33 @@ TEST(TableCache, WithoutAFolderTablesAreBuiltAllTheSame) {
   EXPECT_NE(::testing::internal::GetCapturedStderr().find("could not be kept"), std::string::npos);
 }
 
-TEST(TableCache, ManyMayBuildAtOnce) {
+TEST(TableCache, ProcessesMayWriteAtOnce) {
   const TemporaryFolder folder;
-  // As processes would: each encodes and writes for itself.
   const std::string bytes = encode_table(small_table(0)), path = folder.file("table.h5");
-  std::vector<std::thread> writers;
-  for (int i = 0; i < 4; ++i)
-    writers.emplace_back([&] {
-      for (int n = 0; n < 10; ++n) {
-        write_file_atomically(path, encode_table(small_table(0)));
-        EXPECT_EQ(read_file(path), bytes);
+  std::vector<pid_t> writers;
+  for (int i = 0; i < 4; ++i) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child > 0) {
+      writers.push_back(child);
+      continue;
+    }
+    int wrong = 0;
+    try {
+      for (int n = 0; n < 20; ++n) {
+        write_file_atomically(path, bytes);
+        wrong += read_file(path) != bytes;
       }
-    });
-  for (std::thread& writer : writers) writer.join();
+    } catch (...) {
+      wrong = 100;
+    }
+    ::_exit(wrong);
+  }
+  for (const pid_t child : writers) {
+    int status = -1;
+    EXPECT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
   expect_equal(decode_table(read_file(path), path), small_table(0));
 }
 
