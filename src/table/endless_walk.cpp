@@ -7,7 +7,7 @@
 namespace turbid {
 
 EndlessWalk::EndlessWalk(const PhaseFunction& phase, size_t reach, uint64_t seed)
-    : phase_(phase), rng_(seed), ring_(std::bit_ceil(reach + 1)), mask_(ring_.size() - 1) {
+    : phase_(phase), rng_(seed), reach_(reach), ring_(std::bit_ceil(reach + 1)), mask_(ring_.size() - 1) {
   ring_[0] = {{0, 0, 0}, {0, 0, 1}};
   for (size_t i = 0; i < reach; ++i) step();
 }
@@ -25,6 +25,36 @@ void EndlessWalk::step() {
   flight -= std::log(1 - u);
   const Imath::V3d position = from.position + Imath::V3d(direction) * static_cast<double>(flight);
   ring_[++latest_ & mask_] = {position, direction};
+}
+
+EndlessWalk::Passage EndlessWalk::passage(size_t end, size_t flights) const {
+  const Collision &before = back(end + flights + 1), &first = back(end + flights), &last = back(end);
+  return {Vec3(first.position - before.position), first.direction, Vec3(last.position - first.position),
+          last.direction};
+}
+
+EndlessWalk::Passage EndlessWalk::any(size_t flights) {
+  const auto room = static_cast<uint64_t>(reach_ - flights);
+  return passage(static_cast<size_t>(uint64_t{rng_.next_u32()} * room >> 32), flights);
+}
+
+EndlessWalk::Passage join_passages(std::span<EndlessWalk> walks, size_t flights) {
+  EndlessWalk::Passage result{};
+  for (size_t i = 0; i < walks.size(); ++i) {
+    // Lengths that differ by one at most and add up.
+    const size_t length = flights * (i + 1) / walks.size() - flights * i / walks.size();
+    const EndlessWalk::Passage piece = walks[i].any(length);
+    if (i == 0) {
+      result = piece;
+      continue;
+    }
+    const float phi = 2 * kPi * walks[i].rng().next_float(), c = std::cos(phi), s = std::sin(phi);
+    const Frame from(piece.axis), plain(result.last_direction);
+    const Frame to(plain.s * c + plain.t * s, plain.t * c - plain.s * s, plain.n);
+    result.displacement += to.to_world(from.to_local(piece.displacement));
+    result.last_direction = normalize(to.to_world(from.to_local(piece.last_direction)));
+  }
+  return result;
 }
 
 }  // namespace turbid

@@ -52,33 +52,43 @@ class Collector {
   std::vector<double> orders_, counts_;
 };
 
-/// Flights between samples, and samples left out for them: pairs far apart change slowly, and what limits their noise
-/// is how far the walk went.
-size_t stride(int order) { return static_cast<size_t>(std::clamp(order / 64, 1, 32)); }
-size_t fewer(int order) { return order < 256 ? 1 : 4; }
-
 /// Independent walks side by side: each waits for its own last step alone.
-constexpr uint64_t kWalks = 4;
+constexpr size_t kWalks = 8;
+
+/// How the orders of a bin are sampled: by pairs of one walk each, or, those far apart, joined from pieces of all of
+/// them. What limits the noise of these is how far the walks went.
+struct Plan {
+  bool joined;
+  size_t stride, fewer, reach;
+
+  explicit Plan(const OrderBin& bin) {
+    const auto last = static_cast<size_t>(bin.last);
+    joined = bin.first > 64;
+    stride = joined ? 4 : 1;
+    fewer = bin.first > 256 ? 2 : 1;
+    reach = joined ? std::max<size_t>(1000, 2 * last / kWalks) : last;
+  }
+};
 
 void simulate_bin(const PhaseFunction& phase, const TableShape& shape, const SimulationSettings& settings,
                   OrderBin& bin) {
-  // Order n is n - 1 flights after the first collision; one collision more is where that one's ray began.
+  const Plan plan(bin);
   std::vector<EndlessWalk> walks;
-  for (uint64_t w = 0; w < kWalks; ++w)
-    walks.emplace_back(phase, static_cast<size_t>(bin.last),
-                       hash_counters(settings.seed, static_cast<uint64_t>(bin.first), w));
+  for (size_t w = 0; w < kWalks; ++w)
+    walks.emplace_back(phase, plan.reach, hash_counters(settings.seed, static_cast<uint64_t>(bin.first), w));
   Collector collision(shape), ray(shape);
-  const size_t rounds = (settings.deposits / fewer(bin.first) + kWalks - 1) / kWalks;
+  const size_t rounds = (settings.deposits / plan.fewer + kWalks - 1) / kWalks;
   for (size_t n = 0; n < rounds; ++n) {
-    for (size_t s = stride(bin.first); s > 0; --s)
+    for (size_t s = plan.stride; s > 0; --s)
       for (EndlessWalk& walk : walks) walk.step();
     for (EndlessWalk& walk : walks) {
-      const int order =
-          bin.first + static_cast<int>(uint64_t{walk.rng().next_u32()} * static_cast<uint64_t>(bin.count()) >> 32);
+      const auto orders = static_cast<uint64_t>(bin.count());
+      const int order = bin.first + static_cast<int>(uint64_t{walk.rng().next_u32()} * orders >> 32);
+      // Order n is n - 1 flights after the first collision.
       const auto flights = static_cast<size_t>(order - 1);
-      const EndlessWalk::Collision &first = walk.back(flights), &last = walk.back(0);
-      collision.add(Vec3(last.position - first.position), first.direction, last.direction, order);
-      ray.add(Vec3(last.position - walk.back(flights + 1).position), first.direction, last.direction, order);
+      const EndlessWalk::Passage p = plan.joined ? join_passages(walks, flights) : walk.latest(flights);
+      collision.add(p.displacement, p.axis, p.last_direction, order);
+      ray.add(p.ray + p.displacement, p.axis, p.last_direction, order);
     }
   }
   const auto kind = [](SourceKind k) { return static_cast<size_t>(k); };

@@ -35,8 +35,7 @@ struct OrderBin {
 
 struct SimulationSettings {
   uint64_t seed = 1;
-  size_t deposits =
-      4'000'000;  ///< per bin and source kind; a quarter of it for orders above 256, whose walks go farther
+  size_t deposits = 4'000'000;  ///< per bin and source kind; half of it for orders above 256
 };
 
 /// Bins of orders of scattering: 3 ... 10 alone, then two per octave up to 22,527.

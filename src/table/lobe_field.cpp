@@ -6,7 +6,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "core/gauss_legendre.h"
 #include "table/sagittal_view.h"
 
 namespace turbid {
@@ -110,7 +109,9 @@ LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albed
   if (kind == SourceKind::kRay) centre_ += 1;
   const double lengths = 1 / static_cast<double>(decay_);
   const double far = std::max({kNoFarField, kFarField * lengths, std::min(1.5 * kFarField * lengths, kSurelySampled)});
-  edge_ = static_cast<float>(std::min(grid_.middle(grid_.radii() - 1), far));
+  // At a node, where the interpolant of a field that falls off is not too high.
+  const int nearest = static_cast<int>(std::lround(grid_.radial(static_cast<float>(far)) - 0.5f));
+  edge_ = static_cast<float>(grid_.middle(std::min(nearest, grid_.radii() - 1)));
   nodes_.resize(grid_.cell_count() * cell_size_);
   const Unpacker unpacker(table, kind);
   const AlbedoWeights weights(albedo);
@@ -172,29 +173,6 @@ float LobeField::density(const Vec3& x, const Vec3& axis) const {
   float sum = 0;
   for (int k = 0; k < 4; ++k) sum += c.weights[k][0] * c.rows[k][0];
   return sum * c.factor * std::sqrt(4 * kPi);
-}
-
-double LobeField::energy() const {
-  const GaussLegendre rule(8);
-  double sum = 0;
-  // Panels between nodes; beyond the edge equal ones for 30 decay lengths.
-  std::vector<double> radii{0}, cosines;
-  for (int i = 0; i < grid_.radii() && grid_.middle(i) < static_cast<double>(edge_); ++i)
-    radii.push_back(grid_.middle(i));
-  for (int step = 0; step <= 20; ++step)
-    radii.push_back(static_cast<double>(edge_) + 1.5 * step / static_cast<double>(decay_));
-  for (int j = 0; j <= 2 * grid_.angles(); ++j) cosines.push_back(grid_.cosine(j / 2.0));
-  for (size_t i = 0; i + 1 < radii.size(); ++i)
-    for (size_t j = 0; j + 1 < cosines.size(); ++j)
-      for (size_t a = 0; a < rule.size(); ++a)
-        for (size_t b = 0; b < rule.size(); ++b) {
-          const double r = std::lerp(radii[i], radii[i + 1], rule.node(a));
-          const double mu = std::lerp(cosines[j], cosines[j + 1], rule.node(b));
-          const Vec3 x(Imath::V3d(r * std::sqrt(1 - mu * mu), 0, r * mu));
-          sum += rule.weight(a) * (radii[i + 1] - radii[i]) * rule.weight(b) * (cosines[j] - cosines[j + 1]) * 2 *
-                 std::numbers::pi * r * r * static_cast<double>(density(x, {0, 0, 1}));
-        }
-  return sum;
 }
 
 }  // namespace turbid

@@ -22,8 +22,10 @@ class LobeField {
   float density(const Vec3& x, const Vec3& axis) const;
 
   const PolarGrid& grid() const { return grid_; }
-  /// int eval dw dV over all space, by quadrature: albedo^from_order / (1 - albedo) but for noise and interpolation.
-  double energy() const;
+  /// Where the far field begins, in mean free paths.
+  double edge() const { return static_cast<double>(edge_); }
+  /// Rate of the far field, per mean free path.
+  double decay() const { return static_cast<double>(decay_); }
 
  private:
   /// Where the far field begins, over the decay length: 9 % of the energy lies beyond. At high albedo the samples there

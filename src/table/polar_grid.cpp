@@ -28,14 +28,14 @@ PolarGrid::PolarGrid(int radii, int angles, double outer)
   if (radii < 4 || angles < 4 || !(outer > 1))
     throw std::invalid_argument("a polar grid needs 4 x 4 cells and a radius");
   by_radius_ = radial_matrix();
-  for (const bool odd : {false, true}) by_angle_[odd] = angular_matrix(odd);
+  by_angle_ = angular_matrix();
   const auto sums = [](const Tridiagonal& matrix) {
     std::vector<double> result(matrix.diagonal.size());
     for (size_t i = 0; i < result.size(); ++i) result[i] = matrix.below[i] + matrix.diagonal[i] + matrix.above[i];
     return result;
   };
   radial_mass_ = sums(by_radius_);
-  angular_mass_ = sums(by_angle_[0]);
+  angular_mass_ = sums(by_angle_);
 }
 
 float PolarGrid::radial(float r) const { return radial_scale_ * std::log(1 + r * static_cast<float>(1 / kScale)); }
@@ -76,7 +76,7 @@ PolarGrid::Tridiagonal PolarGrid::radial_matrix() const {
   return m;
 }
 
-PolarGrid::Tridiagonal PolarGrid::angular_matrix(bool odd) const {
+PolarGrid::Tridiagonal PolarGrid::angular_matrix() const {
   // 2 pi int d(cos Theta), split at the middle of the cell, where the interpolant bends. Beyond the first and the last
   // middle stands the mirror image on the other side of the axis.
   const GaussLegendre rule(8);
@@ -85,7 +85,6 @@ PolarGrid::Tridiagonal PolarGrid::angular_matrix(bool odd) const {
                 std::vector<double>(static_cast<size_t>(angles_)),
                 {},
                 {}};
-  const double mirrored = odd ? -1 : 1;
   for (int j = 0; j < angles_; ++j)
     for (int half = 0; half < 2; ++half)
       for (size_t k = 0; k < rule.size(); ++k) {
@@ -97,9 +96,9 @@ PolarGrid::Tridiagonal PolarGrid::angular_matrix(bool odd) const {
         const double off = std::abs(x - 0.5);
         m.diagonal[row] += mass * (1 - off);
         if (x < 0.5)
-          (j > 0 ? m.below[row] : m.diagonal[row]) += mass * off * (j > 0 ? 1 : mirrored);
+          (j > 0 ? m.below[row] : m.diagonal[row]) += mass * off;
         else
-          (j + 1 < angles_ ? m.above[row] : m.diagonal[row]) += mass * off * (j + 1 < angles_ ? 1 : mirrored);
+          (j + 1 < angles_ ? m.above[row] : m.diagonal[row]) += mass * off;
       }
   m.prepare();
   return m;
@@ -114,21 +113,20 @@ void PolarGrid::Tridiagonal::prepare() {
   }
 }
 
-void PolarGrid::to_nodes(std::span<float> contents, size_t width, size_t orders) const {
-  // Thomas' algorithm along both axes, a row of `width` numbers at a time.
+void PolarGrid::to_nodes(std::span<float> contents) const {
+  // Thomas' algorithm along both axes.
   const auto rows = static_cast<size_t>(radii_), columns = static_cast<size_t>(angles_);
-  const auto solve = [&](const Tridiagonal& m, size_t first, size_t stride, size_t count, size_t begin, size_t by) {
-    const auto value = [&](size_t i, size_t c) -> float& { return contents[(first + i * stride) * width + c]; };
-    for (size_t c = begin; c < width; c += by) {
-      for (size_t i = 1; i < count; ++i) value(i, c) -= static_cast<float>(m.factor[i] * value(i - 1, c));
-      for (size_t i = count; i-- > 0;)
-        value(i, c) =
-            static_cast<float>((value(i, c) - (i + 1 < count ? m.above[i] * value(i + 1, c) : 0)) / m.pivot[i]);
+  const auto solve = [&](const Tridiagonal& m, size_t first, size_t stride, size_t count) {
+    std::vector<double> values(count);
+    for (size_t i = 0; i < count; ++i)
+      values[i] = static_cast<double>(contents[first + i * stride]) - (i > 0 ? m.factor[i] * values[i - 1] : 0);
+    for (size_t i = count; i-- > 0;) {
+      values[i] = (values[i] - (i + 1 < count ? m.above[i] * values[i + 1] : 0)) / m.pivot[i];
+      contents[first + i * stride] = static_cast<float>(values[i]);
     }
   };
-  for (size_t j = 0; j < columns; ++j) solve(by_radius_, j, columns, rows, 0, 1);
-  for (size_t i = 0; i < rows; ++i)
-    for (size_t m = 0; m < orders; ++m) solve(by_angle_[m % 2], i * columns, 1, columns, m, orders);
+  for (size_t j = 0; j < columns; ++j) solve(by_radius_, j, columns, rows);
+  for (size_t i = 0; i < rows; ++i) solve(by_angle_, i * columns, 1, columns);
 }
 
 double PolarGrid::content(std::span<const float> nodes) const {
@@ -143,7 +141,7 @@ double PolarGrid::content(std::span<const float> nodes) const {
   for (size_t i = 0; i < rows; ++i)
     for (size_t j = 0; j < columns; ++j)
       sum += apply(by_radius_, i, [&](size_t k) {
-        return apply(by_angle_[0], j, [&](size_t l) { return static_cast<double>(nodes[k * columns + l]); });
+        return apply(by_angle_, j, [&](size_t l) { return static_cast<double>(nodes[k * columns + l]); });
       });
   return sum;
 }

@@ -35,9 +35,7 @@ class PolarGrid {
   double cosine(double cells) const;
 
   /// From what lies in each cell (int T dV) to values at the middles whose interpolant has exactly that in each cell.
-  /// `contents` holds cell_count() rows of `width` numbers; those whose index is odd within `orders` numbers change
-  /// their sign across the axis (the odd azimuthal orders), the others are even.
-  void to_nodes(std::span<float> contents, size_t width, size_t orders) const;
+  void to_nodes(std::span<float> contents) const;
   /// The plain mean of r T in a cell with content 1.
   double mean_of_content(int i, int j) const {
     return 1 / (radial_mass_[static_cast<size_t>(i)] * angular_mass_[static_cast<size_t>(j)]);
@@ -53,12 +51,12 @@ class PolarGrid {
     std::vector<double> factor, pivot;  ///< of Thomas' algorithm
   };
   Tridiagonal radial_matrix() const;
-  Tridiagonal angular_matrix(bool odd) const;
+  Tridiagonal angular_matrix() const;
 
   int radii_, angles_;
   double outer_;
   float radial_scale_;
-  Tridiagonal by_radius_, by_angle_[2];
+  Tridiagonal by_radius_, by_angle_;
   std::vector<double> radial_mass_, angular_mass_;
 };
 

@@ -65,57 +65,56 @@ std::vector<float> gather_set(const std::vector<OrderBin>& bins, size_t kind, si
   return contents;
 }
 
-/// Contents of cells to values at nodes. Sharpening may overshoot where light falls off steeply within a cell: those
-/// cells keep their plain mean. What that changes in the whole is made good by one factor.
-void sharpen(std::vector<float>& values, const TableShape& shape) {
+/// r T_00 at the nodes from the contents of cells. Sharpening may overshoot where light falls off steeply within a
+/// cell: those cells keep their plain mean, and what that changes in the whole is made good by one factor.
+std::vector<float> node_densities(const std::vector<float>& contents, const TableShape& shape) {
   const size_t cell_size = shape.cell_size();
-  const std::vector<float> contents = values;
-  shape.grid.to_nodes(values, cell_size, kOrders);
+  std::vector<float> nodes(shape.grid.cell_count());
   double inside = 0;
-  std::vector<float> density(shape.grid.cell_count());
+  for (size_t cell = 0; cell < nodes.size(); ++cell) {
+    nodes[cell] = contents[cell * cell_size];
+    inside += static_cast<double>(nodes[cell]);
+  }
+  shape.grid.to_nodes(nodes);
   for (int i = 0; i < shape.grid.radii(); ++i)
     for (int j = 0; j < shape.grid.angles(); ++j) {
       const size_t cell = shape.grid.index(i, j);
-      float* value = values.data() + cell * cell_size;
-      const float* content = contents.data() + cell * cell_size;
-      const auto scale = static_cast<float>(shape.grid.mean_of_content(i, j));
-      inside += static_cast<double>(content[0]);
-      const float mean = content[0] * scale;
-      if (!(value[0] > 0.3f * mean && value[0] < 3 * mean))
-        for (size_t c = 0; c < cell_size; ++c) value[c] = content[c] * scale;
-      density[cell] = value[0];
+      const float mean = contents[cell * cell_size] * static_cast<float>(shape.grid.mean_of_content(i, j));
+      if (!(nodes[cell] > 0.3f * mean && nodes[cell] < 3 * mean)) nodes[cell] = mean;
     }
-  const double whole = shape.grid.content(density);
-  if (!(whole > 0)) return;
-  for (float& value : values) value *= static_cast<float>(inside / whole);
+  const double whole = shape.grid.content(nodes);
+  if (whole > 0)
+    for (float& node : nodes) node *= static_cast<float>(inside / whole);
+  return nodes;
 }
 
 ScatteringTable::Kind pack(const std::vector<OrderBin>& bins, size_t kind, const ScatteringTable& table) {
   const size_t cells = table.shape.grid.cell_count(), cell_size = table.shape.cell_size();
   const auto coefficients = table.coefficients();
-  std::array<std::vector<float>, ScatteringTable::kSets> sets;
-  parallel_for(sets.size(), [&](size_t set) {
-    sets[set] = gather_set(bins, kind, set, table.shape);
-    sharpen(sets[set], table.shape);
+  std::array<std::vector<float>, ScatteringTable::kSets> contents, nodes;
+  parallel_for(ScatteringTable::kSets, [&](size_t set) {
+    contents[set] = gather_set(bins, kind, set, table.shape);
+    nodes[set] = node_densities(contents[set], table.shape);
   });
+  // A cell's lobe is the mean of its light's: sharpened as well it would have more noise, and could leave its bounds.
   const auto ratio = [&](size_t set, size_t cell, size_t c) {
     const auto [l, m] = coefficients[c];
-    const float* value = sets[set].data() + cell * cell_size;
-    if (!(value[0] > 0)) return 0.0f;
-    return value[static_cast<size_t>(l) * kOrders + static_cast<size_t>(m)] / value[0] *
+    const float* content = contents[set].data() + cell * cell_size;
+    if (!(content[0] > 0)) return 0.0f;
+    return content[static_cast<size_t>(l) * kOrders + static_cast<size_t>(m)] / content[0] *
            static_cast<float>(table.moments[static_cast<size_t>(l)]);
   };
   ScatteringTable::Kind result;
-  result.density.resize(sets.size() * cells);
+  result.density.resize(ScatteringTable::kSets * cells);
   result.step.resize(coefficients.size());
-  result.ratios.resize(sets.size() * cells * coefficients.size());
-  for (size_t set = 0; set < sets.size(); ++set)
+  result.ratios.resize(ScatteringTable::kSets * cells * coefficients.size());
+  for (size_t set = 0; set < ScatteringTable::kSets; ++set)
     for (size_t cell = 0; cell < cells; ++cell) {
-      result.density[set * cells + cell] = sets[set][cell * cell_size];
+      result.density[set * cells + cell] = nodes[set][cell];
       for (size_t c = 0; c < coefficients.size(); ++c)
         result.step[c] = std::max(result.step[c], std::abs(ratio(set, cell, c)) / 127);
     }
-  for (size_t set = 0; set < sets.size(); ++set)
+  for (size_t set = 0; set < ScatteringTable::kSets; ++set)
     for (size_t cell = 0; cell < cells; ++cell)
       for (size_t c = 0; c < coefficients.size(); ++c)
         result.ratios[(set * cells + cell) * coefficients.size() + c] =

@@ -67,6 +67,37 @@ TEST(EndlessWalk, OfOtherPhaseFunctions) {
     EXPECT_LT(worst_deviation(table, static_cast<double>(table.mean_cosine()), k, false), kLevel);
 }
 
+TEST(EndlessWalk, JoinedPassagesHaveTheSameMoments) {
+  constexpr int kPassages = 100000;
+  for (const float g : {0.0f, 0.7f})
+    for (const size_t k : {16u, 37u}) {
+      const HenyeyGreensteinPhase phase(g);
+      std::vector<EndlessWalk> walks;
+      for (uint64_t seed = 0; seed < 4; ++seed) walks.emplace_back(phase, 30, seed);
+      double z = 0, z2 = 0, r2 = 0, r4 = 0, turned = 0, first = 0;
+      for (int n = 0; n < kPassages; ++n) {
+        for (int i = 0; i < 40; ++i)
+          for (EndlessWalk& walk : walks) walk.step();
+        const EndlessWalk::Passage p = join_passages(walks, k);
+        const auto along = static_cast<double>(dot(p.displacement, p.axis));
+        const auto square = static_cast<double>(length_squared(p.displacement));
+        z += along;
+        z2 += along * along;
+        r2 += square;
+        r4 += square * square;
+        turned += static_cast<double>(dot(p.last_direction, p.axis));
+        first += static_cast<double>(dot(p.ray, p.axis));
+      }
+      const double gd = static_cast<double>(g), n = kPassages;
+      EXPECT_LT(std::abs(z / n - mean_z(gd, k, false)) / std::sqrt((z2 / n - sqr(z / n)) / n), kLevel);
+      EXPECT_LT(std::abs(r2 / n - mean_r2(gd, k)) / std::sqrt((r4 / n - sqr(r2 / n)) / n), kLevel);
+      EXPECT_NEAR(turned / n, std::pow(gd, k), kLevel / std::sqrt(3 * n));
+      EXPECT_NEAR(first / n, 1, kLevel / std::sqrt(n));
+      // One flight more is noticed.
+      EXPECT_GT(std::abs(r2 / n - mean_r2(gd, k + 1)) / std::sqrt((r4 / n - sqr(r2 / n)) / n), kLevel);
+    }
+}
+
 TEST(EndlessWalk, WrongWalksAreFound) {
   EXPECT_GT(worst_deviation(HenyeyGreensteinPhase(0.72f), 0.7, 20, false), 2 * kLevel);
   // The start of the other closed form.

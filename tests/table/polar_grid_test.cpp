@@ -38,7 +38,7 @@ TEST(PolarGrid, NodesHaveTheContentsOfTheCells) {
       content = static_cast<float>((0.5 + rng.next_double()) / kGrid.mean_of_content(i, j));
       sum += static_cast<double>(content);
     }
-  kGrid.to_nodes(contents, 1, 1);
+  kGrid.to_nodes(contents);
   EXPECT_NEAR(kGrid.content(contents), sum, 1e-5 * sum);
 }
 
@@ -61,7 +61,7 @@ TEST(PolarGrid, LinearFieldsComeBack) {
         }
       contents[grid.index(i, j)] = static_cast<float>(content);
     }
-  grid.to_nodes(contents, 1, 1);
+  grid.to_nodes(contents);
   for (int i = 0; i < grid.radii(); ++i)
     for (int j = 0; j < grid.angles(); ++j)
       EXPECT_NEAR(static_cast<double>(contents[grid.index(i, j)]), field(i + 0.5, j + 0.5), 2e-3) << i << " " << j;
