@@ -55,14 +55,20 @@ Image plot_field(const LobeField& field, double reach, int size) {
   const auto extent = static_cast<float>(reach);
   const float scale = 2 * extent / static_cast<float>(size);
   constexpr float kDecades = 6;
-  const float brightest = std::log10(field.density(place(0, 2 * scale), kAxis));
+  const auto at_pixel = [&](int x, int y) {
+    return place((static_cast<float>(x) + 0.5f) * scale - extent, extent - (static_cast<float>(y) + 0.5f) * scale);
+  };
+  std::vector<float> logarithms;
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) {
-      const float along = (static_cast<float>(x) + 0.5f) * scale - extent;
-      const float across = extent - (static_cast<float>(y) + 0.5f) * scale;
-      const float density = field.density(place(along, across), kAxis);
-      canvas.set(x, y, heat(1 + (std::log10(std::max(density, 1e-30f)) - brightest) / kDecades));
-    }
+    for (int x = 0; x < size; ++x)
+      logarithms.push_back(std::log10(std::max(field.density(at_pixel(x, y), kAxis), 1e-30f)));
+  const float brightest = *std::max_element(logarithms.begin(), logarithms.end());
+  for (int y = 0; y < size; ++y)
+    for (int x = 0; x < size; ++x)
+      canvas.set(x, y,
+                 heat(1 + (logarithms[static_cast<size_t>(y) * static_cast<size_t>(size) + static_cast<size_t>(x)] -
+                           brightest) /
+                              kDecades));
   constexpr int kLobes = 8;
   const float step = static_cast<float>(size) / kLobes;
   for (int j = 0; j < kLobes; ++j)
