@@ -95,8 +95,8 @@ class Unpacker {
 LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albedo, int from_order)
     : grid_(table.shape.grid),
       degree_(table.shape.bands.degree),
-      decay_(static_cast<float>(decay_rate(table.moments, albedo))),
-      centre_(static_cast<float>(table.moments[1] / (1 - albedo * table.moments[1]))),
+      edge_(static_cast<float>(grid_.middle(grid_.radii() - 1))),
+      far_field_(table.moments, albedo, kind),
       cell_size_(table.shape.cell_size()) {
   if (!(albedo >= 0 && albedo <= kLargestAlbedo))
     throw std::invalid_argument(
@@ -106,12 +106,6 @@ LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albed
   if (from_order < 3 || from_order > 5)
     throw std::invalid_argument(
         fmt::format("tables of multiple scattering begin at order 3, 4 or 5, not {}", from_order));
-  if (kind == SourceKind::kRay) centre_ += 1;
-  const double lengths = 1 / static_cast<double>(decay_);
-  const double far = std::max({kNoFarField, kFarField * lengths, std::min(1.5 * kFarField * lengths, kSurelySampled)});
-  // At a node, where the interpolant of a field that falls off is not too high.
-  const int nearest = static_cast<int>(std::lround(grid_.radial(static_cast<float>(far)) - 0.5f));
-  edge_ = static_cast<float>(grid_.middle(std::min(nearest, grid_.radii() - 1)));
   nodes_.resize(grid_.cell_count() * cell_size_);
   const Unpacker unpacker(table, kind);
   const AlbedoWeights weights(albedo);
@@ -121,6 +115,20 @@ LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albed
     if (from_order <= 4) unpacker.add_set(row, ScatteringTable::kOrder4, cell, std::pow(albedo, 4));
     unpacker.add_nodes(row, weights, cell, std::pow(albedo, 5));
   }
+  continue_far();
+}
+
+void LobeField::continue_far() {
+  // Interpolation between nodes of albedo is good to a per cent for a few decay lengths, not for twenty.
+  const int edge = far_field_.edge(grid_);
+  for (int i = edge + 1; i < grid_.radii(); ++i)
+    for (int j = 0; j < grid_.angles(); ++j) {
+      const float ratio = far_field_.ratio(static_cast<float>(grid_.middle(i)), static_cast<float>(grid_.middle(edge)),
+                                           static_cast<float>(grid_.cosine(j + 0.5)));
+      const float* from = nodes_.data() + grid_.index(edge, j) * cell_size_;
+      std::transform(from, from + cell_size_, nodes_.data() + grid_.index(i, j) * cell_size_,
+                     [&](float value) { return value * ratio; });
+    }
 }
 
 LobeField::Corners LobeField::corners(float distance, float cosine) const {
@@ -138,20 +146,10 @@ LobeField::Corners LobeField::corners(float distance, float cosine) const {
   if (j == last_j) high *= SagittalHarmonics::alternating();
   const int j_low = std::max(j, 0), j_high = std::min(j + 1, last_j);
   const auto row = [&](int at_i, int at_j) { return nodes_.data() + grid_.index(at_i, at_j) * cell_size_; };
-  const float factor = (r > edge_ ? far_field(r, cosine) : 1) / r;
+  const float factor = (r > edge_ ? far_field_.ratio(r, edge_, cosine) : 1) / r;
   return {{row(i, j_low), row(i, j_high), row(i + 1, j_low), row(i + 1, j_high)},
           {low * (1 - by_u), high * (1 - by_u), low * by_u, high * by_u},
           factor};
-}
-
-float LobeField::far_field(float distance, float cosine) const {
-  // exp(-k R)/R about the far field's centre, relative to the edge in the same direction, times distance / edge because
-  // nodes hold r T.
-  const auto from_centre = [&](float r) {
-    return std::sqrt(std::max(1e-6f, r * r - 2 * r * centre_ * cosine + centre_ * centre_));
-  };
-  const float here = from_centre(distance), there = from_centre(edge_);
-  return std::exp(decay_ * (there - here)) * there / here * (distance / edge_);
 }
 
 float LobeField::eval(const Vec3& x, const Vec3& axis, const Vec3& w) const {

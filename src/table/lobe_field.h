@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "table/far_field.h"
 #include "table/scattering_table.h"
 
 namespace turbid {
@@ -14,25 +15,18 @@ class LobeField {
   LobeField(const ScatteringTable& table, SourceKind kind, double albedo, int from_order = 3);
 
   /// The source radiance at x from the source, whose axis (the direction of its light) is `axis`, towards w. Never
-  /// negative. Beyond kFarField decay lengths, or the grid's end, the lobes of that edge go on, and fall off like the
-  /// diffuse far field. Grows like 1/|x| at the source; finite at x = 0.
+  /// negative. Beyond the grid the lobes of its edge go on, and fall off like the diffuse far field. Grows like 1/|x|
+  /// at the source; finite at x = 0.
   float eval(const Vec3& x, const Vec3& axis, const Vec3& w) const;
 
   /// int over the sphere of eval over w: the density of last collisions times the albedo, per cubic mean free path.
   float density(const Vec3& x, const Vec3& axis) const;
 
   const PolarGrid& grid() const { return grid_; }
-  /// Where the far field begins, in mean free paths.
-  double edge() const { return static_cast<double>(edge_); }
-  /// Rate of the far field, per mean free path.
-  double decay() const { return static_cast<double>(decay_); }
+  /// What goes on beyond the grid's outermost nodes.
+  const FarField& far_field() const { return far_field_; }
 
  private:
-  /// Where the far field begins, over the decay length: 9 % of the energy lies beyond. At high albedo the samples there
-  /// are too few to keep; within kSurelySampled mean free paths they serve for half as far again. At low albedo light
-  /// is not diffuse before it is gone: no far field within kNoFarField.
-  static constexpr double kFarField = 4, kSurelySampled = 60, kNoFarField = 20;
-
   using Lanes = SagittalHarmonics::Lanes;
   /// The four nodes around a place, and the factor of their interpolant.
   struct Corners {
@@ -41,12 +35,12 @@ class LobeField {
     float factor;
   };
   Corners corners(float distance, float cosine) const;
-  float far_field(float distance, float cosine) const;
+  void continue_far();
 
   PolarGrid grid_;
   int degree_;
-  float edge_;                ///< where the far field begins
-  float decay_, centre_;      ///< of the far field: rate, and where along the axis it has its centre
+  float edge_;  ///< distance of the outermost nodes
+  FarField far_field_;
   std::vector<float> nodes_;  ///< [cell][l][m] r T_lm
   size_t cell_size_;
 };

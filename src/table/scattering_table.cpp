@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/parallel.h"
+#include "table/far_field.h"
 
 namespace turbid {
 namespace {
@@ -88,6 +89,23 @@ std::vector<float> node_densities(const std::vector<float>& contents, const Tabl
   return nodes;
 }
 
+/// What lies beyond the far field's edge is its continuation: samples are few there, and at low albedo only their
+/// rarest count. The lobes go on as they are at the edge.
+void continue_far(std::vector<float>& nodes, std::vector<float>& contents, const TableShape& shape,
+                  const FarField& far) {
+  const PolarGrid& grid = shape.grid;
+  const int edge = far.edge(grid);
+  const auto size = static_cast<std::ptrdiff_t>(shape.cell_size());
+  for (int i = edge + 1; i < grid.radii(); ++i)
+    for (int j = 0; j < grid.angles(); ++j) {
+      const auto cosine = static_cast<float>(grid.cosine(j + 0.5));
+      nodes[grid.index(i, j)] = nodes[grid.index(edge, j)] * far.ratio(static_cast<float>(grid.middle(i)),
+                                                                       static_cast<float>(grid.middle(edge)), cosine);
+      std::copy_n(contents.begin() + static_cast<std::ptrdiff_t>(grid.index(edge, j)) * size, size,
+                  contents.begin() + static_cast<std::ptrdiff_t>(grid.index(i, j)) * size);
+    }
+}
+
 ScatteringTable::Kind pack(const std::vector<OrderBin>& bins, size_t kind, const ScatteringTable& table) {
   const size_t cells = table.shape.grid.cell_count(), cell_size = table.shape.cell_size();
   const auto coefficients = table.coefficients();
@@ -95,6 +113,9 @@ ScatteringTable::Kind pack(const std::vector<OrderBin>& bins, size_t kind, const
   parallel_for(ScatteringTable::kSets, [&](size_t set) {
     contents[set] = gather_set(bins, kind, set, table.shape);
     nodes[set] = node_densities(contents[set], table.shape);
+    if (set < kAlbedoNodes)
+      continue_far(nodes[set], contents[set], table.shape,
+                   FarField(table.moments, albedo_at_node(static_cast<int>(set)), static_cast<SourceKind>(kind)));
   });
   // A cell's lobe is the mean of its light's: sharpened as well it would have more noise, and could leave its bounds.
   const auto ratio = [&](size_t set, size_t cell, size_t c) {

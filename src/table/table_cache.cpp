@@ -40,8 +40,8 @@ struct Order {
     shape.bands = choose_bands(phase);
     if (settings.deposits == 0) settings.deposits = default_deposits(shape.bands);
     // Rounded, so that the last digits of other processors do not count.
-    uint64_t key = hash_counters(settings.seed, settings.deposits, static_cast<uint64_t>(shape.grid.radii()),
-                                 static_cast<uint64_t>(shape.grid.angles()));
+    uint64_t key = hash_counters(kTableVersion, settings.seed, settings.deposits,
+                                 static_cast<uint64_t>(shape.grid.radii()), static_cast<uint64_t>(shape.grid.angles()));
     for (const double moment : moments) key = hash_counters(key, static_cast<uint64_t>(std::llround(moment * 1e6)));
     path = fmt::format("{}/g{:.3f}-{:016x}.h5", cache_folder(request.folder), moments[1], key);
   }
@@ -79,7 +79,7 @@ void keep(const ScatteringTable& table, const std::string& path) {
 }  // namespace
 
 size_t default_deposits(const BandLimits& bands) {
-  return bands.degree == 0 ? 1'000'000 : bands.degree < 8 ? 1'500'000 : bands.degree < 20 ? 2'000'000 : 2'500'000;
+  return bands.degree == 0 ? 1'000'000 : bands.degree < 8 ? 1'500'000 : 2'000'000;
 }
 
 std::string table_path(const PhaseFunction& phase, const TableRequest& request) { return Order(phase, request).path; }

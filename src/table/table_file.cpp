@@ -11,7 +11,6 @@
 namespace turbid {
 namespace {
 
-constexpr int kVersion = 1;
 constexpr const char* kFormat = "turbid multiple scattering table";
 constexpr std::array kKindNames = {"collision", "ray"};
 
@@ -137,7 +136,7 @@ hid_t memory_file(std::span<const char> bytes) {
 
 void write_table(hid_t file, const ScatteringTable& table) {
   check(H5LTset_attribute_string(file, "/", "format", kFormat), "format");
-  write_attribute(file, "version", kVersion);
+  write_attribute(file, "version", kTableVersion);
   write_attribute(file, "radii", table.shape.grid.radii());
   write_attribute(file, "angles", table.shape.grid.angles());
   write_attribute(file, "outer_radius", table.shape.grid.outer());
@@ -160,7 +159,7 @@ void write_table(hid_t file, const ScatteringTable& table) {
 
 ScatteringTable read_table(hid_t file) {
   if (H5Aexists(file, "format") <= 0 || H5Aexists(file, "version") <= 0) throw Refused{"it is no table"};
-  if (read_attribute<int>(file, "version") != kVersion) throw Refused{"it is of another version"};
+  if (read_attribute<int>(file, "version") != kTableVersion) throw Refused{"it is of another version"};
   const int radii = read_attribute<int>(file, "radii"), angles = read_attribute<int>(file, "angles");
   const double outer = read_attribute<double>(file, "outer_radius");
   const BandLimits bands{read_attribute<int>(file, "largest_degree"), read_attribute<int>(file, "largest_order")};
