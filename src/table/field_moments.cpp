@@ -10,11 +10,11 @@ namespace turbid {
 FieldMoments measure_moments(const LobeField& field) {
   const GaussLegendre rule(8);
   const PolarGrid& grid = field.grid();
-  // Panels between nodes; beyond the grid even ones for 30 decay lengths.
+  // Panels between nodes; beyond the edge even ones for 30 decay lengths.
   std::vector<double> radii{0}, cosines;
-  for (int i = 0; i < grid.radii(); ++i) radii.push_back(grid.middle(i));
-  for (int step = 1; step <= 20; ++step)
-    radii.push_back(grid.middle(grid.radii() - 1) + 1.5 * step / field.far_field().decay());
+  const int edge = field.far_field().edge(grid);
+  for (int i = 0; i <= edge; ++i) radii.push_back(grid.middle(i));
+  for (int step = 1; step <= 20; ++step) radii.push_back(grid.middle(edge) + 1.5 * step / field.far_field().decay());
   for (int j = 0; j <= 2 * grid.angles(); ++j) cosines.push_back(grid.cosine(j / 2.0));
   FieldMoments sum;
   for (size_t i = 0; i + 1 < radii.size(); ++i)

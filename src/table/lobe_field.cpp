@@ -95,9 +95,9 @@ class Unpacker {
 LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albedo, int from_order)
     : grid_(table.shape.grid),
       degree_(table.shape.bands.degree),
-      edge_(static_cast<float>(grid_.middle(grid_.radii() - 1))),
       far_field_(table.moments, albedo, kind),
-      cell_size_(table.shape.cell_size()) {
+      cell_size_(table.shape.cell_size()),
+      edge_(static_cast<float>(grid_.middle(far_field_.edge(grid_)))) {
   if (!(albedo >= 0 && albedo <= kLargestAlbedo))
     throw std::invalid_argument(
         fmt::format("tables of multiple scattering hold albedos from 0 to {}, not {}: scattering without "
@@ -115,20 +115,6 @@ LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albed
     if (from_order <= 4) unpacker.add_set(row, ScatteringTable::kOrder4, cell, std::pow(albedo, 4));
     unpacker.add_nodes(row, weights, cell, std::pow(albedo, 5));
   }
-  continue_far();
-}
-
-void LobeField::continue_far() {
-  // Interpolation between nodes of albedo is good to a per cent for a few decay lengths, not for twenty.
-  const int edge = far_field_.edge(grid_);
-  for (int i = edge + 1; i < grid_.radii(); ++i)
-    for (int j = 0; j < grid_.angles(); ++j) {
-      const float ratio = far_field_.ratio(static_cast<float>(grid_.middle(i)), static_cast<float>(grid_.middle(edge)),
-                                           static_cast<float>(grid_.cosine(j + 0.5)));
-      const float* from = nodes_.data() + grid_.index(edge, j) * cell_size_;
-      std::transform(from, from + cell_size_, nodes_.data() + grid_.index(i, j) * cell_size_,
-                     [&](float value) { return value * ratio; });
-    }
 }
 
 LobeField::Corners LobeField::corners(float distance, float cosine) const {

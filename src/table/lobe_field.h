@@ -23,7 +23,7 @@ class LobeField {
   float density(const Vec3& x, const Vec3& axis) const;
 
   const PolarGrid& grid() const { return grid_; }
-  /// What goes on beyond the grid's outermost nodes.
+  /// What goes on beyond its edge.
   const FarField& far_field() const { return far_field_; }
 
  private:
@@ -35,14 +35,13 @@ class LobeField {
     float factor;
   };
   Corners corners(float distance, float cosine) const;
-  void continue_far();
 
   PolarGrid grid_;
   int degree_;
-  float edge_;  ///< distance of the outermost nodes
   FarField far_field_;
   std::vector<float> nodes_;  ///< [cell][l][m] r T_lm
   size_t cell_size_;
+  float edge_;  ///< where the far field begins; at a node
 };
 
 }  // namespace turbid
