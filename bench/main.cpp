@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "core/version.h"
-#include "refraction_study.h"
 #include "renders.h"
 
 /// Times kernels and whole renders; prints tables and writes one JSON report.
@@ -81,7 +80,7 @@ int run(int argc, char** argv) {
   std::string program, scenes, out, filter = ".";
   std::vector<std::string> names;
   int samples_per_pixel = 64;
-  bool kernels_only = false, renders_only = false, refraction = false;
+  bool kernels_only = false, renders_only = false;
   CLI::App app("Times kernels (of one thread) and whole renders (of all threads)");
   app.add_option("--program", program, "the turbid that renders");
   app.add_option("--scenes", scenes, "the folder of the scenes");
@@ -92,12 +91,7 @@ int run(int argc, char** argv) {
   app.add_option("--scene", names, "render only these scenes");
   auto* kernels = app.add_flag("--kernels", kernels_only, "kernels only");
   app.add_flag("--renders", renders_only, "renders only")->excludes(kernels);
-  app.add_flag("--refraction", refraction, "nothing but tables about light that is followed through interfaces");
   CLI11_PARSE(app, argc, argv);
-  if (refraction) {
-    print_refraction_study();
-    return 0;
-  }
   if (names.empty()) names = {"clear_sphere", "wax_sphere", "candle"};
 
   nlohmann::ordered_json report = {

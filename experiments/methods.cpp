@@ -16,6 +16,8 @@ std::pair<std::string, std::string> split(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+}  // namespace
+
 Overrides overrides(const std::vector<std::string>& definitions) {
   Overrides result;
   for (const std::string& definition : definitions) {
@@ -24,8 +26,6 @@ Overrides overrides(const std::vector<std::string>& definitions) {
   }
   return result;
 }
-
-}  // namespace
 
 Stage::Stage(const std::string& file, const std::vector<std::string>& definitions)
     : loaded_(load_scene(file, overrides(definitions))), scene_(std::move(loaded_.parts)) {}
@@ -49,7 +49,7 @@ Stage::Shot Stage::render(const std::string& text, uint32_t samples, uint64_t se
   Film film(scene_.film().image_size(), integrator->layer_names());
   const double begin = process_cpu_seconds();
   integrator->render_pass(scene_, {seed, 0, samples}, film, stop);
-  return {film_to_image(film, false), process_cpu_seconds() - begin};
+  return {film_to_image(film, false), process_cpu_seconds() - begin, integrator->counters()};
 }
 
 Noise measure_noise(const Stage& stage, const std::string& integrator, uint32_t samples, const Image& reference,

@@ -10,6 +10,9 @@
 
 namespace turbid::experiments {
 
+/// Scene parameters from texts "name=value".
+Overrides overrides(const std::vector<std::string>& definitions);
+
 /// A scene that several integrators render, in this process.
 class Stage {
  public:
@@ -23,6 +26,7 @@ class Stage {
   struct Shot {
     Image image;
     double seconds = 0;  ///< processor time of all threads
+    Counters counters;
   };
   Shot render(const std::string& integrator, uint32_t samples, uint64_t seed) const;
 

@@ -2,6 +2,7 @@
 
 #include "integrator/aov.h"
 #include "integrator/bdpt.h"
+#include "integrator/many_lights.h"
 #include "integrator/mcrt.h"
 #include "integrator/particle_tracer.h"
 #include "integrator/path_tracer.h"
@@ -12,7 +13,7 @@ namespace {
 /// Integrators of Mitsuba 0.6 that make the picture of volpath in another way. Whoever adds one takes it off the list.
 std::map<std::string, std::string> advice_for_old_names() {
   std::map<std::string, std::string> advice;
-  for (const char* name : {"photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "vpl", "adaptive", "irrcache"})
+  for (const char* name : {"photonmapper", "ppm", "sppm", "mlt", "pssmlt", "erpt", "adaptive", "irrcache"})
     advice[name] = "'volpath' makes the same picture by path tracing (--integrator volpath)";
   return advice;
 }
@@ -34,7 +35,7 @@ IntegratorTable make_table() {
   return IntegratorTable(
       Category::kIntegrator,
       {path_row(), direct_row(), volpath_row(), single_scatter_row(), particle_tracer_row(), bdpt_row(), mcrt_row(),
-       moment_row(), aov_row()},
+       vpl_row(), vrl_row(), moment_row(), aov_row()},
       {"stokes", "volprim_rf_basic", "prb", "prb_basic", "prbvolpath", "direct_projective", "prb_projective"},
       advice_for_old_names());
 }

@@ -46,6 +46,16 @@ class Traveller {
   /// Flies through the medium. `throughput`: that of the walk, sets the mixture of channels.
   Leg fly(const Spectrum& throughput);
 
+  /// Goes straight through the medium to the next surface, or out of the scene: the leg's weight is the transmittance
+  /// of the way. Leaves out what glows.
+  Leg pass() {
+    ++counters_.rays;
+    const Hit hit = scene_.rays().intersect(ray_);
+    const Ray way{ray_.origin, ray_.direction, hit ? hit.t : end_of_ray()};
+    return {false,         hit, way.t_max, medium_->transmittance(way, sampler_), medium_->proxy_transmittance(way),
+            Spectrum(0.0f)};
+  }
+
   /// The next surface through empty space.
   Hit cast() {
     ++counters_.rays;

@@ -60,9 +60,24 @@ struct Vertex {
   };
   /// Scattering into the direction `chosen` (unit, away from here) by the smooth lobes.
   Scattering scatter(const Vec3& chosen, TransportMode mode) const;
+  /// Its value alone.
+  Spectrum scattered(const Vec3& chosen, TransportMode mode) const {
+    if (!is_surface()) return Spectrum(medium->phase().eval(-dot(given, chosen)));
+    return surface_eval(point.to_local(chosen), chosen, mode).value;
+  }
 
   /// |cos| of a direction at a surface, 1 at a collision.
   float cosine(const Vec3& direction) const { return is_surface() ? std::abs(dot(point.ng, direction)) : 1; }
+
+ private:
+  /// Bsdf::eval, corrected for shading normals in walks from a light; nothing where the normals disagree.
+  Bsdf::Eval surface_eval(const Vec3& chosen_local, const Vec3& chosen, TransportMode mode) const {
+    if (!(chosen_local.z * dot(chosen, point.ng) > 0)) return {};
+    Bsdf::Eval there = object->bsdf->eval(point, given_local, chosen_local, mode);
+    if (mode == TransportMode::kImportance && !there.value.is_black())
+      there.value *= adjoint_correction(point, given, chosen);
+    return there;
+  }
 };
 
 /// What turns a density per solid angle into one per area or volume at the end of an edge, but for 1/distance^2: the
@@ -82,13 +97,12 @@ inline Vertex::Scattering Vertex::scatter(const Vec3& chosen, TransportMode mode
     return {Spectrum(f), f, f};
   }
   const Vec3 chosen_local = point.to_local(chosen);
-  if (!(chosen_local.z * dot(chosen, point.ng) > 0)) return {};
-  const Bsdf::Eval there = object->bsdf->eval(point, given_local, chosen_local, mode);
+  const Bsdf::Eval there = surface_eval(chosen_local, chosen, mode);
   if (there.value.is_black()) return {};
-  const bool from_light = mode == TransportMode::kImportance;
-  const TransportMode opposite = from_light ? TransportMode::kRadiance : TransportMode::kImportance;
+  const TransportMode opposite =
+      mode == TransportMode::kImportance ? TransportMode::kRadiance : TransportMode::kImportance;
   const Bsdf::Eval back = object->bsdf->eval(point, chosen_local, given_local, opposite);
-  return {from_light ? there.value * adjoint_correction(point, given, chosen) : there.value, there.pdf_w, back.pdf_w};
+  return {there.value, there.pdf_w, back.pdf_w};
 }
 
 }  // namespace turbid

@@ -17,6 +17,11 @@ struct WalkRecorder {
   void before_flight(const Medium&, const PathState&, const Traveller&) {}
   /// A straight piece of flight in a medium, from the ray's origin to its t_max; the state is that at its start.
   void on_segment(const Ray&, const Medium&, const PathState&, const Traveller::Leg&) {}
+  /// Asked before each flight: true, and the flight does not collide but passes with the transmittance of the way as
+  /// its weight. on_passage hears of the way first (the state is that at its start, where the traveller still stands):
+  /// the recorder makes the collisions.
+  bool passes_media() const { return false; }
+  void on_passage(const Ray&, const Medium&, const PathState&, const Traveller&) {}
   /// The walk went straight on: through a medium (Medium::proxy_transmittance of the way), or through a surface
   /// (Bsdf::null_transmission).
   void passed_medium(const Spectrum& /*proxy*/) {}
@@ -123,8 +128,11 @@ class Walk {
     const Ray start = traveller_.ray();
     const Medium& medium = *traveller_.medium();
     recorder_.before_flight(medium, state(), traveller_);
-    const Traveller::Leg leg = traveller_.fly(throughput_);
-    recorder_.on_segment({start.origin, start.direction, leg.length}, medium, state(), leg);
+    const bool passes = recorder_.passes_media();
+    const Traveller::Leg leg = passes ? traveller_.pass() : traveller_.fly(throughput_);
+    const Ray way{start.origin, start.direction, leg.length};
+    if (passes) recorder_.on_passage(way, medium, state(), traveller_);
+    recorder_.on_segment(way, medium, state(), leg);
     throughput_ *= leg.weight;
     hit = leg.hit;
     if (!leg.collides) recorder_.passed_medium(leg.proxy);

@@ -2,56 +2,10 @@
 
 #include <algorithm>
 
+#include "refraction/quadratic.h"
+
 namespace turbid {
 namespace {
-
-bool signs_differ(double a, double b) { return (a < 0) != (b < 0); }
-
-/// The six Bernstein coefficients of a quadratic function on a triangle tell bounds of it and of its gradient.
-struct Quadratic {
-  std::array<double, 3> corner;  ///< values at the corners 0, 1, 2
-  std::array<double, 3> side;    ///< coefficients of the sides 01, 12, 20
-  std::array<double, 3> bend;    ///< by how much those differ from the mean of their corners
-
-  Quadratic(const std::array<double, 3>& corners, const std::array<double, 3>& middles) : corner(corners) {
-    for (size_t k = 0; k < 3; ++k) {
-      const double mean = (corners[k] + corners[(k + 1) % 3]) / 2;
-      side[k] = 2 * middles[k] - mean;
-      bend[k] = side[k] - mean;
-    }
-  }
-
-  /// The coefficient of a side, moved towards a sign change by a share of its bend: what a quadratic leaves out.
-  double cautious(size_t k, double sign) const {
-    constexpr double kShareOfBend = 0.15;
-    return sign * side[k] - kShareOfBend * std::abs(bend[k]);
-  }
-
-  /// Of one sign everywhere, as far as can be told.
-  bool keeps_its_sign() const {
-    const double sign = corner[0] < 0 ? -1 : 1;
-    for (size_t k = 0; k < 3; ++k)
-      if (!(sign * corner[k] > 0) || !(cautious(k, sign) > 0)) return false;
-    return true;
-  }
-
-  /// A side whose ends have the same sign may be crossed twice.
-  bool may_cross_a_side_twice() const {
-    for (size_t k = 0; k < 3; ++k) {
-      const double a = corner[k], b = corner[(k + 1) % 3];
-      if (signs_differ(a, b)) continue;
-      const double c = cautious(k, a < 0 ? -1 : 1);
-      if (c < 0 && c * c > a * b) return true;
-    }
-    return false;
-  }
-
-  /// Gradients at the corners by local coordinates along the sides 01 and 02; those in between are their means.
-  std::array<V2d, 3> gradients() const {
-    return {V2d(side[0] - corner[0], side[2] - corner[0]) * 2, V2d(corner[1] - side[0], side[1] - side[0]) * 2,
-            V2d(side[1] - side[2], corner[2] - side[2]) * 2};
-  }
-};
 
 /// Steps of bracketed root search before giving up; secant steps converge in three or four.
 constexpr int kMaxSteps = 60;
@@ -81,25 +35,8 @@ const std::vector<ContourPiece>& ContourFinder::find(const Pencil& pencil, const
   pencil_ = &pencil;
   segment_ = &segment;
   pieces_.clear();
-  const Node q0 = node({0, 0}), q1 = node({1, 0}), q2 = node({0, 1});
-  if (!stays_away(q0.value, q1.value, q2.value)) search(q0, q1, q2, 1, 0);
+  search(node({0, 0}), node({1, 0}), node({0, 1}), 1, 0);
   return pieces_;
-}
-
-bool ContourFinder::stays_away(double h0, double h1, double h2) const {
-  if (signs_differ(h0, h1) || signs_differ(h0, h2)) return false;
-  const auto [low, high] = std::minmax({std::abs(h0), std::abs(h1), std::abs(h2)});
-  if (low < 0.5 * (high - low)) return false;
-  // Second differences of meeting() are about theta (size + theta s): theta is the angle by which refracted rays differ
-  // over the facet, s their length to the line.
-  const Facet& facet = pencil_->facet();
-  const double size2 = facet.p_a.length2() + facet.p_b.length2();
-  const double reach2 = std::max((segment_->line.at(segment_->from) - facet.p0).length2(),
-                                 (segment_->line.at(segment_->to) - facet.p0).length2());
-  const double theta2 =
-      (facet.n_a.length2() + facet.n_b.length2()) / facet.n0.length2() + pencil_->angle2_at_light(size2);
-  constexpr double kCaution = 2;
-  return low > kCaution * (std::sqrt(theta2 * size2) + theta2 * std::sqrt(reach2));
 }
 
 void ContourFinder::search(const Node& q0, const Node& q1, const Node& q2, double scale, int depth) {
@@ -225,7 +162,7 @@ bool ContourFinder::clip(ContourPiece& piece) const {
 }
 
 std::optional<ContourPoint> ContourFinder::point(const Pencil& pencil, const Line& line, const ContourPiece& piece,
-                                                 double x) {
+                                                 double x, double tolerance) {
   // Newton along `across`, kept between the sides of the part.
   const V2d base = piece.start + (piece.end - piece.start) * x;
   double low = -kInfinity, high = kInfinity;
@@ -236,7 +173,7 @@ std::optional<ContourPoint> ContourFinder::point(const Pencil& pencil, const Lin
     if (slope > 0) low = std::max(low, -height / slope);
     if (slope < 0) high = std::min(high, -height / slope);
   }
-  constexpr double kTolerance = 1e-10, kSlack = 1e-6;
+  constexpr double kSlack = 1e-6;
   low = std::min(low, 0.0) - kSlack;
   high = std::max(high, 0.0) + kSlack;
   double at = 0;
@@ -246,7 +183,7 @@ std::optional<ContourPoint> ContourFinder::point(const Pencil& pencil, const Lin
     const double value = meeting(there.ray, line), slope = meeting_gradient(there, line).dot(piece.across);
     (value < 0 ? low : high) = at;  // meeting() rises along `across`
     const double step = slope > 0 ? -value / slope : 0;
-    const bool converged = std::abs(step) < kTolerance || value == 0;
+    const bool converged = std::abs(step) < tolerance || value == 0;
     if (converged && slope > 0) return ContourPoint{place, there, slope, encounter(there.ray, line)};
     const double newton = at + step;
     const bool usable = slope > 0 && newton > low && newton < high;

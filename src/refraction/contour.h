@@ -36,7 +36,7 @@ struct ContourPoint {
   Encounter encounter;  ///< with the line
 };
 
-/// Finds the pieces of a facet's contour, and points on them.
+/// Finds the pieces of a facet's contour, and points on them. TriangleFilter tells cheaply which facets have none.
 ///
 /// The facet is cut into similar parts until meeting() on each is nearly the quadratic function through its values at
 /// corners and middles of sides, and that has a gradient of one direction; then signs at corners tell everything. What
@@ -46,8 +46,10 @@ class ContourFinder {
   /// The pieces within the segment; valid until the next call.
   const std::vector<ContourPiece>& find(const Pencil& pencil, const Segment& segment);
 
-  /// The point at the share x in [from, to] of a piece; empty where the solver does not converge.
-  static std::optional<ContourPoint> point(const Pencil& pencil, const Line& line, const ContourPiece& piece, double x);
+  /// The point at the share x in [from, to] of a piece; empty where the solver does not converge. `tolerance`: of its
+  /// last step, in the (a, b) plane.
+  static std::optional<ContourPoint> point(const Pencil& pencil, const Line& line, const ContourPiece& piece, double x,
+                                           double tolerance = 1e-10);
 
   /// Parts that find() had to give up on, since construction.
   uint64_t unresolved() const { return unresolved_; }
@@ -64,8 +66,6 @@ class ContourFinder {
   static constexpr int kMaxCriticalDepth = 5;
 
   Node node(const V2d& at) const;
-  /// By values at the corners alone: meeting() is far from 0 for its variation and what that may leave out.
-  bool stays_away(double h0, double h1, double h2) const;
   void search(const Node& q0, const Node& q1, const Node& q2, double scale, int depth);
   void add_piece(const std::array<Node, 3>& corners, const std::array<Node, 3>& middles, const V2d& across);
   /// The root of meeting() on the side between two nodes of different sign.

@@ -1,6 +1,8 @@
 #pragma once
 #include <Imath/ImathVec.h>
 
+#include <cmath>
+
 #include "geometry/triangle_mesh.h"
 
 namespace turbid {
@@ -8,22 +10,25 @@ namespace turbid {
 using Imath::V2d;
 using Imath::V3d;
 
+/// v / |v|, without Imath's care for the tiniest lengths.
+inline V3d unit(const V3d& v) { return v * (1 / std::sqrt(v.length2())); }
+
 /// One triangle of a mesh as refraction sees it, in double precision: positions and shading normals are linear in the
 /// barycentric coordinates (a, b), which may lie outside of the triangle.
 struct Facet {
-  V3d p0, p_a, p_b;  ///< P(a, b) = p0 + a p_a + b p_b
-  V3d n0, n_a, n_b;  ///< n(a, b) = n0 + a n_a + b n_b, not normalised; on the outside
-  V3d ng;            ///< geometric normal, unit, on the outside
-  double area2 = 0;  ///< twice the area: dA_P = area2 da db
+  V3d p0{0}, p_a{0}, p_b{0};  ///< P(a, b) = p0 + a p_a + b p_b
+  V3d n0{0}, n_a{0}, n_b{0};  ///< n(a, b) = n0 + a n_a + b n_b, not normalised; on the outside
+  V3d ng{0};                  ///< geometric normal, unit, on the outside
+  double area2 = 0;           ///< twice the area: dA_P = area2 da db
 
   V3d position(const V2d& at) const { return p0 + p_a * at.x + p_b * at.y; }
   V3d blended_normal(const V2d& at) const { return n0 + n_a * at.x + n_b * at.y; }
-  V3d normal(const V2d& at) const { return blended_normal(at).normalized(); }
+  V3d normal(const V2d& at) const { return unit(blended_normal(at)); }
   /// Derivative of normal() along the direction `da_db`, where the blend is `blended`.
   static V3d normal_change(const V3d& blended, const V3d& change) {
-    const double scale = 1 / blended.length();
-    const V3d unit = blended * scale;
-    return (change - unit * unit.dot(change)) * scale;
+    const double scale = 1 / std::sqrt(blended.length2());
+    const V3d n = blended * scale;
+    return (change - n * n.dot(change)) * scale;
   }
 
   /// The same triangle with its inside taken for its outside.

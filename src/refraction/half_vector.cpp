@@ -51,7 +51,7 @@ HalfVector::Jacobian HalfVector::jacobian(double t, const V2d& at) const {
           {by_t, by_position(facet_.p_a, facet_.n_a), by_position(facet_.p_b, facet_.n_b)}};
 }
 
-std::optional<V2d> HalfVector::solve(double t, const V2d& start) const {
+std::optional<V2d> HalfVector::solve(double t, const V2d& start, double tolerance) const {
   V2d at = start;
   for (int i = 0; i < kMaxSteps; ++i) {
     const Jacobian j = jacobian(t, at);
@@ -59,7 +59,8 @@ std::optional<V2d> HalfVector::solve(double t, const V2d& start) const {
     if (!step) return std::nullopt;
     at += *step;
     if (!(at.length() < kFarAway)) return std::nullopt;
-    if (step->length() < kTolerance) return value(t, at).length() < kZero ? std::optional(at) : std::nullopt;
+    if (step->length() < tolerance)
+      return value(t, at).length() < std::max(kZero, tolerance) ? std::optional(at) : std::nullopt;
   }
   return std::nullopt;
 }

@@ -25,8 +25,8 @@ class HalfVector {
   Jacobian jacobian(double t, const V2d& at) const;
 
   /// Newton's method from `start` with the pseudo-inverse (S4 eq. 8-9), V fixed. Empty where it does not come to rest
-  /// at a zero; the point may lie outside of the triangle.
-  std::optional<V2d> solve(double t, const V2d& start) const;
+  /// at a zero; the point may lie outside of the triangle. `tolerance`: of its last step.
+  std::optional<V2d> solve(double t, const V2d& start, double tolerance = 1e-11) const;
 
   /// A point of the curve f = 0 on a side of the triangle.
   struct Crossing {

@@ -11,8 +11,8 @@ Pencil::Ray Pencil::ray(const V2d& at) const {
     result.to_light = light_.place;
   } else {
     const V3d towards = light_.place - result.p;
-    result.distance = towards.length();
-    result.to_light = towards / result.distance;
+    result.distance = std::sqrt(towards.length2());
+    result.to_light = towards * (1 / result.distance);
   }
   result.cos_light = result.to_light.dot(result.normal);
   const double cos2 = 1 - (1 - sqr(result.cos_light)) * sqr(inverse_eta_);

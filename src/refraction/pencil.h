@@ -52,10 +52,6 @@ class Pencil {
   }
 
   const Facet& facet() const { return facet_; }
-  /// About the square of the angle at which the light sees a length of the square `size2` at the facet.
-  double angle2_at_light(double size2) const {
-    return light_.at_infinity ? 0 : size2 / (light_.place - facet_.p0).length2();
-  }
   double eta() const { return 1 / inverse_eta_; }
 
  private:

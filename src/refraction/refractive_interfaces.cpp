@@ -18,7 +18,10 @@ RefractiveInterfaces::RefractiveInterfaces(const Scene& scene) {
     const auto* bsdf = dynamic_cast<const Dielectric*>(object.bsdf.get());
     if (!mesh || !bsdf || bsdf->eta() == 1 || object.emitter) continue;
     if (!mesh->is_closed())
-      log_warning(fmt::format("mesh '{}' has holes: light that comes in through them is not refracted", mesh->name()));
+      log_warning(fmt::format(
+          "mesh '{}' has holes or turned triangles: light that comes in there is not refracted, or from the "
+          "wrong side",
+          mesh->name()));
     index_[&object] = all_.size();
     all_.emplace_back(object, *mesh, *bsdf);
   }

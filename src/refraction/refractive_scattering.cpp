@@ -1,7 +1,10 @@
 #include "refraction/refractive_scattering.h"
 
+#include <bit>
+
 #include "refraction/distance_factor.h"
 #include "refraction/half_vector.h"
+#include "refraction/triangle_filter.h"
 #include "surface/fresnel.h"
 
 namespace turbid {
@@ -37,7 +40,8 @@ class RefractiveScattering::Gathering {
         throughput_(throughput),
         sampler_(sampler),
         counters_(counters),
-        rng_(sampler.aside(flight.origin, flight.direction)),
+        // Not along the flight: those numbers are the attenuation's, where the medium differs from place to place.
+        rng_(sampler.aside(flight.origin, -flight.direction)),
         segment_{{V3d(flight.origin), V3d(flight.direction).normalized()}, 0, static_cast<double>(flight.t_max)} {}
 
   Spectrum run() {
@@ -77,8 +81,21 @@ class RefractiveScattering::Gathering {
                        [&](uint32_t triangle, double, double) { connect(triangle, t); });
       }
     } else {
-      one.tree.visit(light_->point(), eta_, light_inside, segment_,
-                     [&](uint32_t triangle, double, double) { integrate(triangle); });
+      integrate_all();
+    }
+  }
+
+  void integrate_all() {
+    candidates_.clear();
+    interface_->tree.visit(light_->point(), eta_, light_inside_, segment_,
+                           [&](uint32_t triangle, double, double) { candidates_.push_back(triangle); });
+    const TriangleFilter filter(*interface_->mesh, light_->point(), eta_, light_inside_, segment_);
+    std::span<const uint32_t> left = candidates_;
+    while (!left.empty()) {
+      const auto few = left.first(std::min(TriangleFilter::kLanes, left.size()));
+      for (uint32_t lanes = filter.may_contribute(few); lanes != 0; lanes &= lanes - 1)
+        integrate(few[static_cast<size_t>(std::countr_zero(lanes))]);
+      left = left.subspan(few.size());
     }
   }
 
@@ -95,14 +112,13 @@ class RefractiveScattering::Gathering {
   /// All that one triangle refracts towards the flight.
   void integrate(uint32_t triangle) {
     const Facet facet = lit_facet(triangle);
-    if (!lit(facet)) return;
     const Pencil pencil(facet, light_->point(), eta_);
     for (const ContourPiece& piece : finder_.find(pencil, segment_)) {
       const double share = piece.to - piece.from;
       const int count = settings_.samples;
       for (int i = 0; i < count; ++i) {
-        const auto point =
-            ContourFinder::point(pencil, segment_.line, piece, piece.from + share * stratified(i, count));
+        const double x = piece.from + share * stratified(i, count);
+        const auto point = ContourFinder::point(pencil, segment_.line, piece, x, settings_.tolerance);
         if (!point) {
           ++counters_.unresolved_triangles;
           continue;
@@ -132,7 +148,7 @@ class RefractiveScattering::Gathering {
     const Facet facet = lit_facet(triangle);
     if (!lit(facet)) return;
     const HalfVector function(facet, light_->point(), eta_, segment_.line);
-    const auto at = function.solve(t, V2d(1.0 / 3));
+    const auto at = function.solve(t, V2d(1.0 / 3), settings_.tolerance);
     if (!at || !inside_triangle(*at)) return;
     const Pencil pencil(facet, light_->point(), eta_);
     const Pencil::Ray ray = pencil.ray(*at);
@@ -232,6 +248,7 @@ class RefractiveScattering::Gathering {
   bool light_inside_ = false;
   double eta_ = 1;  ///< index at V / index at the light
   ContourFinder finder_;
+  std::vector<uint32_t> candidates_;  ///< triangles that the tree names
   Spectrum result_{0.0f};
 };
 

@@ -19,11 +19,12 @@ struct RefractiveSettings {
   bool in_middle = false;     ///< of the strata (S4 eq. 18), not anywhere in them
   bool environments = false;  ///< their light is followed, too; else paths find it, which meet the sky easily
   bool focusing = true;       ///< false: D is taken for the square of the distance (S4 Fig. 11)
+  /// Newton's steps to P, in the triangle's own coordinates, that are taken for rest (epsilon of S4 Fig. 12).
+  double tolerance = 1e-10;
 };
 
 /// Single scattering of light that one smooth interface bends on its way into a medium (S4, NUMERICS 4): paths light -
-/// P
-/// - V - rest, with P on a RefractiveInterface and V anywhere on a flight through a medium.
+/// P - V - rest, with P on a RefractiveInterface and V anywhere on a flight through a medium.
 ///
 /// For triangle intervals the integral over the flight is taken along the contour of each triangle (ContourPiece). With
 /// coordinates (sigma, tau) along and across it, and h = meeting():

@@ -60,6 +60,11 @@ class Bsdf {
   /// Factor of the light that passes straight on (null lobes): next-event estimation multiplies it along shadow rays.
   virtual Spectrum null_transmission(const SurfacePoint&, const Vec3& /*given*/) const { return Spectrum(0.0f); }
 
+  /// pi f where that is the same for all directions on the side of `given` and 0 on the other: diffuse reflection.
+  virtual std::optional<Spectrum> diffuse_reflectance(const SurfacePoint&, const Vec3& /*given*/) const {
+    return std::nullopt;
+  }
+
   /// Hemispherical reflectance (plus transmittance for scattering boundaries) of the smooth part, roughly; for layers
   /// and advice, not for light transport.
   virtual Spectrum albedo(const SurfacePoint&) const { return Spectrum(1.0f); }

@@ -14,6 +14,9 @@ class Diffuse final : public Bsdf {
   Eval eval(const SurfacePoint& point, const Vec3& given, const Vec3& chosen, TransportMode mode) const override;
   std::optional<BsdfSample> sample(const SurfacePoint& point, const Vec3& given, float u_lobe, const Vec2& u,
                                    TransportMode mode) const override;
+  std::optional<Spectrum> diffuse_reflectance(const SurfacePoint& point, const Vec3& given) const override {
+    return given.z > 0 ? reflectance_.eval(point) : Spectrum(0.0f);
+  }
   Spectrum albedo(const SurfacePoint& point) const override { return reflectance_.eval(point); }
 
  private:

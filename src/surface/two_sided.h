@@ -15,6 +15,10 @@ class TwoSided final : public Bsdf {
   Eval eval(const SurfacePoint& point, const Vec3& given, const Vec3& chosen, TransportMode mode) const override;
   std::optional<BsdfSample> sample(const SurfacePoint& point, const Vec3& given, float u_lobe, const Vec2& u,
                                    TransportMode mode) const override;
+  std::optional<Spectrum> diffuse_reflectance(const SurfacePoint& point, const Vec3& given) const override {
+    return given.z > 0 ? front_->diffuse_reflectance(point, given)
+                       : back_->diffuse_reflectance(point, {given.x, given.y, -given.z});
+  }
   Spectrum albedo(const SurfacePoint& point) const override;
 
  private:

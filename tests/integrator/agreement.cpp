@@ -75,28 +75,28 @@ Observation observe(const std::string& xml, const Contestant& contestant, int bl
   LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
   const auto replaced = replacement(loaded.integrator, contestant.integrator);
   const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
-  const Scene scene(std::move(loaded.parts));
+  return observe(Scene(std::move(loaded.parts)), *setup.integrator, contestant, block);
+}
 
-  std::vector<std::string> names = setup.integrator->layer_names();
+Observation observe(const Scene& scene, Integrator& integrator, const Contestant& contestant, int block) {
+  std::vector<std::string> names = integrator.layer_names();
   std::vector<OrderLayer> layers;
   for (int order = 0; order < kOrderClasses; ++order) {
     layers.push_back({order, order, names.size()});
     for (const char* channel : {".R", ".G", ".B"}) names.push_back("order" + std::to_string(order) + channel);
   }
-  EXPECT_TRUE(setup.integrator->split_orders(layers)) << contestant.integrator;
+  EXPECT_TRUE(integrator.split_orders(layers)) << contestant.integrator;
 
   StopFlag stop;
-  setup.integrator->prepare(scene, contestant.seed, stop);
+  integrator.prepare(scene, contestant.seed, stop);
   const Vec2i size = scene.film().image_size();
   const PassStatistics none(size, block);
-  Observation result{none,
-                     {none, none, none, none},
-                     find_specular_blocks(scene, block),
-                     support_in(scene, setup.integrator->support())};
+  Observation result{
+      none, {none, none, none, none}, find_specular_blocks(scene, block), support_in(scene, integrator.support())};
   for (uint32_t pass = 0; pass < kPasses; ++pass) {
     Film film(size, names);
-    setup.integrator->render_pass(scene, {contestant.seed, uint64_t{pass} * contestant.samples, contestant.samples},
-                                  film, stop);
+    integrator.render_pass(scene, {contestant.seed, uint64_t{pass} * contestant.samples, contestant.samples}, film,
+                           stop);
     for (PixelSums& pixel : film.pixels())
       for (double& value : pixel.radiance) value *= contestant.brightness;
     result.all.add(film);
@@ -109,7 +109,7 @@ Observation observe(const std::string& xml, const Contestant& contestant, int bl
       result.orders[static_cast<size_t>(layer.min_order)].add(part);
     }
   }
-  Counters counters = setup.integrator->counters();
+  Counters counters = integrator.counters();
   EXPECT_EQ(counters["dropped_samples"], 0u) << contestant.integrator;
   EXPECT_EQ(counters["saturated_splats"], 0u) << contestant.integrator;
   return result;

@@ -31,6 +31,8 @@ struct Observation {
 /// Renders kPasses passes; statistics are over blocks of `block` x `block` pixels. Dropped samples and saturated splats
 /// are failures.
 Observation observe(const std::string& xml, const Contestant& contestant, int block = 4);
+/// The same of an integrator at hand; the contestant's name is not looked at.
+Observation observe(const Scene& scene, Integrator& integrator, const Contestant& contestant, int block = 4);
 
 /// The comparison of two observations: one verdict for all light (index 0) and for each class of order (1 + class);
 /// empty where neither saw anything. `cannot`: why nothing can be compared.

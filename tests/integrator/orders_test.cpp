@@ -13,7 +13,10 @@ class Orders : public ::testing::TestWithParam<std::tuple<const char*, const cha
 
 Film render(const std::string& xml, const std::string& integrator) {
   LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
-  const auto replaced = replace_integrator(loaded.integrator, integrator, {});
+  std::vector<std::pair<std::string, std::string>> settings;
+  if (integrator == "vpl" || integrator == "vrl")
+    settings = {{"lights", "50"}, {"surface_caches", "20"}, {"volume_caches", "20"}};
+  const auto replaced = replace_integrator(loaded.integrator, integrator, settings);
   const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
   return render_with(Scene(std::move(loaded.parts)), *setup.integrator, 16);
 }
@@ -40,7 +43,7 @@ TEST_P(Orders, AddUpToTheFullImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Everywhere, Orders,
-                         ::testing::Combine(::testing::Values("volpath", "ptracer", "bdpt"),
+                         ::testing::Combine(::testing::Values("volpath", "ptracer", "bdpt", "vpl", "vrl"),
                                             ::testing::Values("fog", "smoke", "glass")),
                          [](const auto& instance) {
                            return std::string(std::get<0>(instance.param)) + "_" + std::get<1>(instance.param);

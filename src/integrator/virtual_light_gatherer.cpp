@@ -1,0 +1,124 @@
+#include "integrator/virtual_light_gatherer.h"
+
+namespace turbid {
+
+// --- lines -----------------------------------------------------------------------------------------------------------
+
+Spectrum LightLines::shadowed(const Scatterer& place, const Scatterer& light, const Traveller& traveller) const {
+  const Spectrum value = unshadowed(place, light, settings_);
+  if (value.is_black()) return value;
+  const Vec3 wi = normalize(light.position() - place.position());
+  const Ray line = line_between(place.leave(wi), light.leave(-wi));
+  if (!place.is_surface()) return value * traveller.look_along(line, Spectrum(1.0f)).transmittance;
+  const SurfaceEvent surface = *place.vertex().surface_event();
+  return value * traveller.look_along(line, Spectrum(1.0f), &surface).transmittance;
+}
+
+Spectrum LightLines::to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const {
+  const size_t points = lights_.points().size();
+  if (light < points) return shadowed(place, lights_.points()[light], traveller);
+  const CollisionSegment& ray = lights_.rays()[light - points];
+  const PlaceOnSegment at = place_towards(ray.way(), place.position(), ray.g(), rng.next_float());
+  if (!(at.pdf_t > 0)) return Spectrum(0.0f);
+  return shadowed(place, ray.place_at(at.t, at.pdf_t, sampler_), traveller);
+}
+
+void LightLines::draw_pairs(const CollisionSegment& way, std::span<const Request> batch,
+                            std::array<SegmentPair, kBatch>& pairs) const {
+  std::array<PairRequest, kBatch> requests;
+  std::array<SegmentPair, kBatch> found;
+  const size_t points = lights_.points().size();
+  size_t count = 0;
+  for (const Request& request : batch)
+    if (request.light >= points) {
+      const CollisionSegment& ray = lights_.rays()[request.light - points];
+      requests[count++] = {&ray.way(), ray.g(), request.u};
+    }
+  sample_pairs({requests.data(), count}, way.way(), way.g(), {found.data(), count});
+  for (size_t i = batch.size(); i-- > 0;)
+    if (batch[i].light >= points) pairs[i] = found[--count];
+}
+
+Spectrum LightLines::to_way(const CollisionSegment& way, const Request& request, const SegmentPair& pair,
+                            const Traveller& traveller) const {
+  const size_t points = lights_.points().size();
+  if (request.light < points) {
+    const Scatterer& point = lights_.points()[request.light];
+    const PlaceOnSegment at = place_towards(way.way(), point.position(), way.g(), request.u.x);
+    if (!(at.pdf_t > 0)) return Spectrum(0.0f);
+    return shadowed(way.place_at(at.t, at.pdf_t, sampler_), point, traveller);
+  }
+  if (!(pair.pdf > 0)) return Spectrum(0.0f);
+  const CollisionSegment& ray = lights_.rays()[request.light - points];
+  return shadowed(way.place_at(pair.on_sensor, 1, sampler_), ray.place_at(pair.on_light, pair.pdf, sampler_),
+                  traveller);
+}
+
+int LightLines::order(size_t light) const {
+  const size_t points = lights_.points().size();
+  return light < points ? lights_.points()[light].order() : lights_.rays()[light - points].order();
+}
+
+// --- the recorder --------------------------------------------------------------------------------------------------
+
+void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, const PathState& state,
+                                      const Traveller& traveller) {
+  make_collisions(way, medium, state, plan_.path.max_depth, plan_.volume_points, sampler_,
+                  [&](const CollisionEvent& event, const PathState& at) {
+                    if (plan_.rays)
+                      direct_->at_collision(event, at, traveller);
+                    else
+                      shade(event, at, traveller);
+                  });
+  const HomogeneousMedium* homogeneous = medium.as_homogeneous();
+  if (!plan_.rays || !(way.t_max > 0) || !std::isfinite(way.t_max) || state.throughput.is_black()) return;
+  if (homogeneous && homogeneous->sigma_s().is_black()) return;
+  ask_along(CollisionSegment::of_sensor(way, medium, state), traveller);
+}
+
+template <class Ask>
+void VirtualLightGatherer::choose_lights(int order, Rng rng, const Ask& ask) {
+  const auto choose = [&](size_t light, double factor) {
+    Rng own = lights_.rays().empty() ? rng : Rng(hash_counters(rng.next_u32(), rng.next_u32()));
+    if (!plan_.path.order_counts(order + lines_.order(light))) return;
+    ++counters_.connections;
+    ask(light, static_cast<float>(factor), own);
+  };
+  if (!chooser_) {
+    for (size_t light = 0; light < lights_.size(); ++light) choose(light, 1);
+    return;
+  }
+  const double samples = plan_.light_samples;
+  for (int i = 0; i < plan_.light_samples; ++i) {
+    const auto choice = chooser_->sample((i + rng.next_double()) / samples);
+    if (choice) choose(choice->light, 1 / (choice->prob * samples));
+  }
+}
+
+void VirtualLightGatherer::ask_virtual_lights(const Vertex& vertex, const Traveller& traveller) {
+  if (lights_.empty() || vertex.throughput.is_black()) return;
+  const Scatterer place(vertex, TransportMode::kRadiance);
+  if (chooser_) chooser_->move_to(place);
+  choose_lights(place.order(), sampler_.aside(vertex.position, vertex.given),
+                [&](size_t light, float factor, Rng& rng) {
+                  add(place.order() + lines_.order(light), lines_.to_place(place, light, rng, traveller) * factor);
+                });
+}
+
+void VirtualLightGatherer::ask_along(const CollisionSegment& way, const Traveller& traveller) {
+  if (lights_.empty()) return;
+  if (chooser_) chooser_->move_along(way.way());
+  requests_.clear();
+  factors_.clear();
+  choose_lights(way.order(), sampler_.aside(way.way().origin, way.way().direction),
+                [&](size_t light, float factor, Rng& rng) {
+                  const float u = rng.next_float();
+                  requests_.push_back({light, {u, rng.next_float()}});
+                  factors_.push_back(factor);
+                });
+  lines_.to_way(way, requests_, traveller, [&](size_t i, const Spectrum& value) {
+    add(way.order() + lines_.order(requests_[i].light), value * factors_[i]);
+  });
+}
+
+}  // namespace turbid

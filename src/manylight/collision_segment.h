@@ -1,0 +1,42 @@
+#pragma once
+#include "manylight/scatterer.h"
+#include "manylight/segment_pair.h"
+#include "path/passage.h"
+
+namespace turbid {
+
+/// A way through a medium on which a walk could collide anywhere: of a light path a virtual ray light (Novak et al.
+/// 2012), of a walk from the sensor a way that is shaded. place_at() makes a collision at one place of it.
+class CollisionSegment {
+ public:
+  /// A way of the sensor's walk: `state` holds the path up to its beginning.
+  static CollisionSegment of_sensor(const Ray& way, const Medium& medium, const PathState& state);
+  /// What a light path flew before it collided or passed, `way` of finite length; `state` at its beginning, `scale` a
+  /// factor of its flux. Only in homogeneous media, whose flights have densities in closed form.
+  static CollisionSegment of_light(const Ray& way, const HomogeneousMedium& medium, const PathState& state,
+                                   float scale);
+
+  const Ray& way() const { return way_; }
+  const Medium& medium() const { return *medium_; }
+  /// Mean cosine of the phase function; for densities.
+  float g() const { return g_; }
+  int depth() const { return depth_; }  ///< of a collision on it
+  int order() const { return order_; }
+
+  /// A collision at distance t, with what the walk brings to it per length; times 1 / (density of t).
+  /// From a light: flux x sigma_s x T_i(t) / sum mix_j T_j(t), for the segment ends at t or before with the rest of the
+  /// probability. From the sensor: throughput x T(t) x sigma_s. `sampler`: for media that vary.
+  Scatterer place_at(float t, double pdf_t, const Sampler& sampler) const;
+
+ private:
+  CollisionSegment() = default;
+
+  Ray way_;
+  const Medium* medium_ = nullptr;
+  Spectrum throughput_, mix_;
+  float g_ = 0;
+  int depth_ = 0, order_ = 0;
+  bool from_light_ = false;
+};
+
+}  // namespace turbid

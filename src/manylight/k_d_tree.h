@@ -1,0 +1,89 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace turbid {
+
+/// Finds the points nearest to a place, in D dimensions. Built once; queries are const and thread-safe.
+template <size_t D>
+class KdTree {
+ public:
+  using Point = std::array<float, D>;
+  struct Neighbour {
+    uint32_t index = 0;  ///< of the point as it was given
+    float distance2 = std::numeric_limits<float>::infinity();
+  };
+
+  KdTree() = default;
+  explicit KdTree(std::vector<Point> points) : points_(std::move(points)), order_(points_.size()) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    axes_.resize(points_.size());
+    build(0, points_.size());
+  }
+
+  size_t size() const { return points_.size(); }
+
+  /// Fills `found` with the nearest points, nearest first, and returns how many there are (fewer than asked for only
+  /// where the tree has fewer). Points at equal distance are taken in an order that depends on the tree alone.
+  size_t nearest(const Point& place, std::span<Neighbour> found) const {
+    size_t count = 0;
+    search(place, 0, points_.size(), found, count);
+    return count;
+  }
+
+ private:
+  // The middle of a range is its node; what lies before it along the node's axis stands before it.
+  void build(size_t begin, size_t end) {
+    if (end - begin < 2) return;
+    Point low = points_[order_[begin]], high = low;
+    for (size_t i = begin; i < end; ++i)
+      for (size_t d = 0; d < D; ++d) {
+        low[d] = std::min(low[d], points_[order_[i]][d]);
+        high[d] = std::max(high[d], points_[order_[i]][d]);
+      }
+    size_t axis = 0;
+    for (size_t d = 1; d < D; ++d)
+      if (high[d] - low[d] > high[axis] - low[axis]) axis = d;
+    const size_t middle = (begin + end) / 2;
+    const auto at = [this](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
+      return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
+    });
+    axes_[middle] = static_cast<uint8_t>(axis);
+    build(begin, middle);
+    build(middle + 1, end);
+  }
+
+  void search(const Point& place, size_t begin, size_t end, std::span<Neighbour> found, size_t& count) const {
+    if (begin == end || found.empty()) return;
+    const size_t middle = (begin + end) / 2;
+    const Point& node = points_[order_[middle]];
+    const size_t axis = axes_[middle];
+    const float beyond = place[axis] - node[axis];
+    const bool first_half = beyond < 0;
+    first_half ? search(place, begin, middle, found, count) : search(place, middle + 1, end, found, count);
+    float distance2 = 0;
+    for (size_t d = 0; d < D; ++d) distance2 += (place[d] - node[d]) * (place[d] - node[d]);
+    insert({order_[middle], distance2}, found, count);
+    if (count < found.size() || beyond * beyond < found[count - 1].distance2)
+      first_half ? search(place, middle + 1, end, found, count) : search(place, begin, middle, found, count);
+  }
+
+  static void insert(const Neighbour& neighbour, std::span<Neighbour> found, size_t& count) {
+    if (count == found.size() && neighbour.distance2 >= found[count - 1].distance2) return;
+    size_t i = count < found.size() ? count++ : count - 1;
+    for (; i > 0 && found[i - 1].distance2 > neighbour.distance2; --i) found[i] = found[i - 1];
+    found[i] = neighbour;
+  }
+
+  std::vector<Point> points_;
+  std::vector<uint32_t> order_;
+  std::vector<uint8_t> axes_;
+};
+
+}  // namespace turbid

@@ -1,0 +1,92 @@
+#include "manylight/virtual_lights.h"
+
+#include <mutex>
+
+#include "core/parallel.h"
+#include "path/walk.h"
+
+namespace turbid {
+namespace {
+
+constexpr size_t kGrain = 64;  ///< paths per task
+/// Keeps the streams of virtual lights and of the pilot apart from all others.
+constexpr uint64_t kLightsStream = 0x76706cull, kPilotSet = ~uint64_t{0};
+
+/// What light paths leave.
+struct Left {
+  std::vector<Vertex> vertices;
+  std::vector<CollisionSegment> rays;
+
+  void append(Left& other) {
+    vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+    rays.insert(rays.end(), other.rays.begin(), other.rays.end());
+    other = {};
+  }
+};
+
+class LightKeeper : public WalkRecorder {
+ public:
+  LightKeeper(Left& left, float scale, bool rays) : left_(left), scale_(scale), rays_(rays) {}
+
+  void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg&) {
+    const HomogeneousMedium* homogeneous = medium.as_homogeneous();
+    if (!rays_ || !homogeneous || medium.sigma_s().is_black() || state.throughput.is_black()) return;
+    if (way.t_max > 0 && std::isfinite(way.t_max))
+      left_.rays.push_back(CollisionSegment::of_light(way, *homogeneous, state, scale_));
+  }
+  void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
+    if (event.object.bsdf->flags() & lobe::kSmooth && !state.throughput.is_black())
+      left_.vertices.emplace_back(event, state, traveller.medium()).throughput *= scale_;
+  }
+  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller&) {
+    if (!rays_ || !event.medium.as_homogeneous()) left_.vertices.emplace_back(event, state).throughput *= scale_;
+  }
+
+ private:
+  Left& left_;
+  float scale_;  ///< 1 / paths
+  bool rays_;
+};
+
+Left trace(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
+  std::vector<Left> parts((paths + kGrain - 1) / kGrain);
+  std::mutex mutex;
+  parallel_for(parts.size(), [&](size_t task) {
+    SampleCounters own;
+    Sampler sampler(plan.scene.sampler(), hash_counters(plan.seed, kLightsStream));
+    LightKeeper keeper(parts[task], 1 / static_cast<float>(paths), plan.rays);
+    LightWalk<LightKeeper> walk(plan.scene, plan.path, sampler, own, keeper);
+    for (size_t path = task * kGrain; path < std::min(paths, (task + 1) * kGrain); ++path) {
+      sampler.start(path, set);
+      walk.run(plan.sources);
+    }
+    const std::lock_guard lock(mutex);
+    counters.add(own);
+  });
+  Left all;
+  for (Left& part : parts) all.append(part);
+  return all;
+}
+
+}  // namespace
+
+VirtualLights::VirtualLights(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
+  Left left = trace(plan, paths, set, counters);
+  vertices_ = std::move(left.vertices);
+  rays_ = std::move(left.rays);
+  points_.reserve(vertices_.size());
+  for (const Vertex& vertex : vertices_) points_.emplace_back(vertex, TransportMode::kImportance);
+}
+
+size_t paths_for_lights(const VirtualLightPlan& plan, size_t lights) {
+  constexpr size_t kPilotPaths = 4096;
+  constexpr double kLeastPerPath = 0.01;
+  SampleCounters counters;
+  const Left left = trace(plan, kPilotPaths, kPilotSet, counters);
+  const double per_path =
+      static_cast<double>(left.vertices.size() + left.rays.size()) / static_cast<double>(kPilotPaths);
+  const double paths = static_cast<double>(lights) / std::max(per_path, kLeastPerPath);
+  return std::max<size_t>(1, static_cast<size_t>(std::lround(paths)));
+}
+
+}  // namespace turbid
