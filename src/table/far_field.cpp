@@ -11,7 +11,8 @@ FarField::FarField(std::span<const double> moments, double albedo, SourceKind ki
 
 int FarField::edge(const PolarGrid& grid) const {
   const double edge = std::max({20.0, 4 / decay_, std::min(6 / decay_, 60.0)});
-  return std::min(static_cast<int>(std::lround(grid.radial(static_cast<float>(edge)) - 0.5f)), grid.radii() - 1);
+  // The outermost node is left out: beyond it the grid supposes that nothing falls off, which makes it too low.
+  return std::min(static_cast<int>(std::lround(grid.radial(static_cast<float>(edge)) - 0.5f)), grid.radii() - 2);
 }
 
 float FarField::ratio(float to, float from, float cosine) const {

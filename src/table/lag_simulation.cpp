@@ -13,7 +13,7 @@ namespace {
 /// Collects samples of one kind of source.
 class Collector {
  public:
-  Collector(const TableShape& shape) : shape_(shape), cell_size_(shape.cell_size()) {
+  Collector(const TableShape& shape, int degree) : shape_(shape), degree_(degree), cell_size_(shape.cell_size()) {
     moments_.resize(shape.grid.cell_count() * cell_size_);
     orders_.resize(shape.grid.cell_count() + 1);
     counts_.resize(shape.grid.cell_count() + 1);
@@ -47,10 +47,20 @@ class Collector {
 
  private:
   const TableShape& shape_;
+  int degree_;
   size_t cell_size_;
   std::vector<float> moments_;
   std::vector<double> orders_, counts_;
 };
+
+/// The bands that light of an order has. The more it has scattered the smoother its lobes: with s = n (1 - f), f the
+/// largest moment beyond f_0, the bands above 1 + 20/s hold less than 0.3 % of the light (measured at g = 0.9: 21 at n
+/// = 10, 5 at n = 44, 2 from n = 176 on), and samples would fill them with noise.
+int degree_of_order(int order, const std::vector<double>& moments, int degree) {
+  double largest = 0;
+  for (size_t l = 1; l < moments.size(); ++l) largest = std::max(largest, std::abs(moments[l]));
+  return std::min(degree, 1 + static_cast<int>(std::ceil(20 / (order * (1 - largest)))));
+}
 
 /// Independent walks side by side: each waits for its own last step alone.
 constexpr size_t kWalks = 8;
@@ -70,13 +80,13 @@ struct Plan {
   }
 };
 
-void simulate_bin(const PhaseFunction& phase, const TableShape& shape, const SimulationSettings& settings,
+void simulate_bin(const PhaseFunction& phase, const TableShape& shape, const SimulationSettings& settings, int degree,
                   OrderBin& bin) {
   const Plan plan(bin);
   std::vector<EndlessWalk> walks;
   for (size_t w = 0; w < kWalks; ++w)
     walks.emplace_back(phase, plan.reach, hash_counters(settings.seed, static_cast<uint64_t>(bin.first), w));
-  Collector collision(shape), ray(shape);
+  Collector collision(shape, degree), ray(shape, degree);
   const size_t rounds = (settings.deposits / plan.fewer + kWalks - 1) / kWalks;
   for (size_t n = 0; n < rounds; ++n) {
     for (size_t s = plan.stride; s > 0; --s)
@@ -115,7 +125,10 @@ std::vector<OrderBin> simulate_orders(const PhaseFunction& phase, const TableSha
                                       const SimulationSettings& settings) {
   std::vector<OrderBin> bins;
   for (const auto& [first, last] : order_bins()) bins.push_back({first, last, {}, {}});
-  parallel_for(bins.size(), [&](size_t b) { simulate_bin(phase, shape, settings, bins[b]); });
+  const std::vector<double> moments = legendre_moments(phase, std::max(1, shape.bands.degree));
+  parallel_for(bins.size(), [&](size_t b) {
+    simulate_bin(phase, shape, settings, degree_of_order(bins[b].first, moments, shape.bands.degree), bins[b]);
+  });
   return bins;
 }
 

@@ -78,8 +78,8 @@ class Unpacker {
  private:
   double density(size_t set, size_t cell) const { return static_cast<double>(kind_.density[set * cells_ + cell]); }
   double ratio(size_t set, size_t cell, size_t c) const {
-    return static_cast<double>(kind_.ratios[(set * cells_ + cell) * coefficients_.size() + c]) *
-           static_cast<double>(kind_.step[c]);
+    return static_cast<double>(
+        decode_ratio(kind_.ratios[(set * cells_ + cell) * coefficients_.size() + c], kind_.largest[c]));
   }
   float& at(float* row, size_t c) const {
     return row[static_cast<size_t>(coefficients_[c].first) * kOrders + static_cast<size_t>(coefficients_[c].second)];

@@ -127,19 +127,19 @@ ScatteringTable::Kind pack(const std::vector<OrderBin>& bins, size_t kind, const
   };
   ScatteringTable::Kind result;
   result.density.resize(ScatteringTable::kSets * cells);
-  result.step.resize(coefficients.size());
+  result.largest.resize(coefficients.size());
   result.ratios.resize(ScatteringTable::kSets * cells * coefficients.size());
   for (size_t set = 0; set < ScatteringTable::kSets; ++set)
     for (size_t cell = 0; cell < cells; ++cell) {
       result.density[set * cells + cell] = nodes[set][cell];
       for (size_t c = 0; c < coefficients.size(); ++c)
-        result.step[c] = std::max(result.step[c], std::abs(ratio(set, cell, c)) / 127);
+        result.largest[c] = std::max(result.largest[c], std::abs(ratio(set, cell, c)));
     }
   for (size_t set = 0; set < ScatteringTable::kSets; ++set)
     for (size_t cell = 0; cell < cells; ++cell)
       for (size_t c = 0; c < coefficients.size(); ++c)
         result.ratios[(set * cells + cell) * coefficients.size() + c] =
-            result.step[c] > 0 ? static_cast<int8_t>(std::lround(ratio(set, cell, c) / result.step[c])) : int8_t{0};
+            encode_ratio(ratio(set, cell, c), result.largest[c]);
   return result;
 }
 
@@ -159,7 +159,8 @@ std::vector<std::pair<int, int>> ScatteringTable::coefficients() const {
 
 size_t ScatteringTable::size() const {
   size_t bytes = moments.size() * sizeof(double);
-  for (const Kind& kind : kinds) bytes += (kind.density.size() + kind.step.size()) * sizeof(float) + kind.ratios.size();
+  for (const Kind& kind : kinds)
+    bytes += (kind.density.size() + kind.largest.size()) * sizeof(float) + kind.ratios.size();
   return bytes;
 }
 

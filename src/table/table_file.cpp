@@ -117,7 +117,8 @@ uint64_t checksum(const ScatteringTable& table) {
                              std::bit_cast<uint64_t>(shape.grid.outer()), static_cast<uint64_t>(shape.bands.degree),
                              static_cast<uint64_t>(shape.bands.order), table.seed, table.deposits);
   h = hash(table.moments, h);
-  for (const ScatteringTable::Kind& kind : table.kinds) h = hash(kind.ratios, hash(kind.step, hash(kind.density, h)));
+  for (const ScatteringTable::Kind& kind : table.kinds)
+    h = hash(kind.ratios, hash(kind.largest, hash(kind.density, h)));
   return h;
 }
 
@@ -152,8 +153,9 @@ void write_table(hid_t file, const ScatteringTable& table) {
     const ScatteringTable::Kind& kind = table.kinds[k];
     write_data(file, group + "/density", kind.density,
                "[set][radius][angle] r T_00 in mean free paths; sets: nodes of albedo (orders 5 and more), order 3, 4");
-    write_data(file, group + "/step", kind.step, "[coefficient (l, m), l >= 1] step of the ratios");
-    write_data(file, group + "/ratios", kind.ratios, "[set][radius][angle][coefficient] T_lm / T_00 in steps");
+    write_data(file, group + "/largest", kind.largest, "[coefficient (l, m), l >= 1] largest ratio");
+    write_data(file, group + "/ratios", kind.ratios,
+               "[set][radius][angle][coefficient] T_lm / T_00 = q |q| / 127^2 of the largest");
   }
 }
 
@@ -175,7 +177,7 @@ ScatteringTable read_table(hid_t file) {
   for (size_t k = 0; k < kSourceKinds; ++k) {
     const std::string group = kKindNames[k];
     table.kinds[k].density = read_data<float>(file, group + "/density", cells);
-    table.kinds[k].step = read_data<float>(file, group + "/step", rows);
+    table.kinds[k].largest = read_data<float>(file, group + "/largest", rows);
     table.kinds[k].ratios = read_data<int8_t>(file, group + "/ratios", cells * rows);
   }
   if (read_attribute<uint64_t>(file, "checksum") != checksum(table)) throw Refused{"its checksum is wrong"};

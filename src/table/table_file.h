@@ -10,7 +10,7 @@ namespace turbid {
 inline constexpr int kTableVersion = 1;
 
 /// A table as an HDF5 file in memory: version, shape, Legendre moments, seed, and per source kind the data sets
-/// "density", "step", "ratios" with what they hold in words; compressed, with a checksum over all of it. The bytes
+/// "density", "largest", "ratios" with what they hold in words; compressed, with a checksum over all of it. The bytes
 /// depend on the table alone.
 std::string encode_table(const ScatteringTable& table);
 

@@ -28,7 +28,7 @@ void expect_equal(const ScatteringTable& a, const ScatteringTable& b) {
   EXPECT_EQ(a.deposits, b.deposits);
   for (size_t k = 0; k < kSourceKinds; ++k) {
     EXPECT_EQ(a.kinds[k].density, b.kinds[k].density);
-    EXPECT_EQ(a.kinds[k].step, b.kinds[k].step);
+    EXPECT_EQ(a.kinds[k].largest, b.kinds[k].largest);
     EXPECT_EQ(a.kinds[k].ratios, b.kinds[k].ratios);
   }
 }
@@ -39,6 +39,15 @@ TEST(TableFile, ComesBackAsItWas) {
     expect_equal(decode_table(bytes, "memory"), small_table(g));
     EXPECT_EQ(encode_table(small_table(g)), bytes);
   }
+}
+
+TEST(TableFile, RatiosInEightBits) {
+  for (const float largest : {0.1f, 3.0f})
+    for (float x = -1; x <= 1; x += 0.01f) {
+      const float back = decode_ratio(encode_ratio(x * largest, largest), largest) / largest;
+      EXPECT_NEAR(back, x, std::sqrt(std::abs(x)) / 127 + 2e-5f);
+    }
+  EXPECT_EQ(decode_ratio(encode_ratio(0, 0), 0), 0);
 }
 
 TEST(TableFile, DamageIsFound) {
