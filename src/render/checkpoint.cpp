@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "core/error.h"
-#include "image/atomic_file.h"
 #include "core/hash.h"
+#include "image/atomic_file.h"
 
 namespace turbid {
 namespace {

@@ -1,7 +1,7 @@
 #include "surface/conductor.h"
 
-#include "surface/fresnel.h"
 #include "core/gauss_legendre.h"
+#include "surface/fresnel.h"
 
 namespace turbid {
 namespace {
