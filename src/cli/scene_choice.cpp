@@ -7,11 +7,11 @@
 
 #include "cli/default_scene.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "core/log.h"
 #include "core/version.h"
 #include "image/atomic_file.h"
 #include "integrator/integrators.h"
-#include "render/hash.h"
 
 namespace turbid {
 namespace {

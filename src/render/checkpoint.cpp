@@ -8,8 +8,8 @@
 #include <type_traits>
 
 #include "core/error.h"
+#include "core/hash.h"
 #include "image/atomic_file.h"
-#include "render/hash.h"
 
 namespace turbid {
 namespace {

@@ -1,7 +1,7 @@
 #include "surface/conductor.h"
 
+#include "core/gauss_legendre.h"
 #include "surface/fresnel.h"
-#include "surface/gauss_legendre.h"
 
 namespace turbid {
 namespace {

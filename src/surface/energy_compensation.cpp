@@ -5,9 +5,9 @@
 #include <mutex>
 #include <tuple>
 
+#include "core/gauss_legendre.h"
 #include "core/parallel.h"
 #include "surface/fresnel.h"
-#include "surface/gauss_legendre.h"
 
 namespace turbid {
 namespace {

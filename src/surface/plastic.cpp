@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
+#include "core/gauss_legendre.h"
 #include "core/warp.h"
 #include "surface/fresnel.h"
-#include "surface/gauss_legendre.h"
 #include "texture/constant.h"
 
 namespace turbid {

@@ -1,9 +1,9 @@
 // What rough surfaces lose, and what the compensating lobe gives back.
 #include "surface/energy_compensation.h"
 
+#include "core/gauss_legendre.h"
 #include "core/warp.h"
 #include "surface/bsdf_checks.h"
-#include "surface/gauss_legendre.h"
 #include "surface/materials.h"
 
 namespace turbid::testing {

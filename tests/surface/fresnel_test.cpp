@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "surface/gauss_legendre.h"
+#include "core/gauss_legendre.h"
 #include "surface/indices.h"
 
 namespace turbid {

@@ -1,0 +1,47 @@
+#pragma once
+#include <vector>
+
+#include "table/far_field.h"
+#include "table/scattering_table.h"
+
+namespace turbid {
+
+/// Light around one kind of source in an infinite medium of one albedo, mean free path 1, ready to be looked up: the
+/// source radiance sum_{n >= from_order} r_n(x, w) per unit of flux, n counting all collisions, the last one at x, from
+/// where the light leaves along w (NUMERICS 8; S1 eq. 4). 1/sr per cubic mean free path.
+class LobeField {
+ public:
+  /// Throws std::invalid_argument unless 0 <= albedo <= kLargestAlbedo and from_order is 3, 4 or 5.
+  LobeField(const ScatteringTable& table, SourceKind kind, double albedo, int from_order = 3);
+
+  /// The source radiance at x from the source, whose axis (the direction of its light) is `axis`, towards w. Never
+  /// negative. Beyond the grid the lobes of its edge go on, and fall off like the diffuse far field. Grows like 1/|x|
+  /// at the source; finite at x = 0.
+  float eval(const Vec3& x, const Vec3& axis, const Vec3& w) const;
+
+  /// int over the sphere of eval over w: the density of last collisions times the albedo, per cubic mean free path.
+  float density(const Vec3& x, const Vec3& axis) const;
+
+  const PolarGrid& grid() const { return grid_; }
+  /// What goes on beyond its edge.
+  const FarField& far_field() const { return far_field_; }
+
+ private:
+  using Lanes = SagittalHarmonics::Lanes;
+  /// The four nodes around a place, and the factor of their interpolant.
+  struct Corners {
+    const float* rows[4];
+    Lanes weights[4];
+    float factor;
+  };
+  Corners corners(float distance, float cosine) const;
+
+  PolarGrid grid_;
+  int degree_;
+  FarField far_field_;
+  std::vector<float> nodes_;  ///< [cell][l][m] r T_lm
+  size_t cell_size_;
+  float edge_;  ///< where the far field begins; at a node
+};
+
+}  // namespace turbid

@@ -1,0 +1,160 @@
+#include "table/multiple_scattering.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace turbid {
+namespace {
+
+/// Below these optical lengths a stretch of light is looked up as collisions at their mean depth, and at three depths:
+/// b(z) - e^-D b(z - D) would be the small difference of large numbers, and their noise grows by 1/(1 - e^-D).
+constexpr float kShortest = 0.2f, kShort = 1;
+/// Beyond it nothing is left of the light.
+constexpr float kLong = 30;
+
+/// Distances along [0, length] like the transmittance of an extinction; with none, or over a short stretch, evenly.
+class Exponential {
+ public:
+  Exponential(float sigma_t, float length)
+      : sigma_t_(sigma_t), scale_(-std::expm1(-sigma_t * std::min(length, 1e30f))), length_(length) {}
+  float sample(float u) const {
+    return scale_ > 1e-4f ? std::min(-std::log1p(-u * scale_) / sigma_t_, length_) : u * length_;
+  }
+  float pdf_t(float t) const { return scale_ > 1e-4f ? sigma_t_ * std::exp(-sigma_t_ * t) / scale_ : 1 / length_; }
+
+ private:
+  float sigma_t_, scale_, length_;
+};
+
+/// Distances like the inverse square of the distance to a point that is nearest at t = `nearest`, at `distance`
+/// (Kulla & Fajardo 2012).
+class Equiangular {
+ public:
+  Equiangular(float nearest, float distance, float length)
+      : nearest_(nearest),
+        distance_(distance),
+        first_(std::atan(-nearest / distance)),
+        range_(std::atan((length - nearest) / distance) - first_),
+        length_(length) {}
+  float sample(float u) const {
+    return std::clamp(nearest_ + distance_ * std::tan(first_ + u * range_), 0.0f, length_);
+  }
+  float pdf_t(float t) const { return distance_ / (range_ * (sqr(distance_) + sqr(t - nearest_))); }
+
+ private:
+  float nearest_, distance_, first_, range_, length_;
+};
+
+/// int_0^depth e^-t r(x - t axis, w) dt of a short stretch, by one or three collisions on it.
+float short_stretch(const LobeField& collision, float depth, const Vec3& x, const Vec3& axis, const Vec3& w) {
+  const float collided = -std::expm1(-depth);
+  if (depth < kShortest) {
+    const float mean_depth = depth < 1e-2f ? depth / 2 : 1 - depth * std::exp(-depth) / collided;
+    return collided * collision.eval(x - axis * mean_depth, axis, w);
+  }
+  // Gauss-Legendre in the probability to have collided.
+  float sum = 0;
+  for (const auto& [node, weight] : {std::pair{0.1127017f, 5.0f / 18}, {0.5f, 8.0f / 18}, {0.8872983f, 5.0f / 18}})
+    sum += weight * collision.eval(x + axis * std::log1p(-node * collided), axis, w);
+  return collided * sum;
+}
+
+}  // namespace
+
+MultipleScattering::MultipleScattering(const HomogeneousMedium& medium, const ScatteringTable& table, int from_order)
+    : sigma_t_(medium.sigma_t()), mean_sigma_t_(medium.sigma_t().mean()) {
+  for (int c = 0; c < kChannels; ++c) {
+    if (!(medium.albedo()[c] > 0)) continue;
+    Channel& channel = channels_[c];
+    channel.sigma_t = sigma_t_[c];
+    channel.volume_scale = channel.sigma_t * channel.sigma_t * channel.sigma_t;
+    reach_ = std::max(reach_, kLong / channel.sigma_t);
+    for (int same = 0; same < c; ++same)
+      if (medium.albedo()[same] == medium.albedo()[c]) {
+        channel.collision = channels_[same].collision;
+        channel.ray = channels_[same].ray;
+      }
+    if (channel.collision) continue;
+    const auto albedo = static_cast<double>(medium.albedo()[c]);
+    channel.collision = std::make_shared<LobeField>(table, SourceKind::kCollision, albedo, from_order);
+    channel.ray = std::make_shared<LobeField>(table, SourceKind::kRay, albedo, from_order);
+  }
+}
+
+MultipleScattering::~MultipleScattering() = default;
+
+Spectrum MultipleScattering::source_radiance(const Vec3& at, const Vec3& direction, const Vec3& x,
+                                             const Vec3& w) const {
+  Spectrum result;
+  for (int c = 0; c < kChannels; ++c)
+    if (const Channel& channel = channels_[c]; channel.collision)
+      result[c] = channel.volume_scale * channel.collision->eval((x - at) * channel.sigma_t, direction, w);
+  return result;
+}
+
+Spectrum MultipleScattering::source_radiance(const Stretch& light, const Vec3& x, const Vec3& w) const {
+  Spectrum result;
+  for (int c = 0; c < kChannels; ++c) {
+    const Channel& channel = channels_[c];
+    if (!channel.ray) continue;
+    const float depth = light.length * channel.sigma_t;
+    const Vec3 from = (x - light.origin) * channel.sigma_t;
+    float value;
+    if (depth < kShort) {
+      if (!(depth > 0)) continue;
+      value = short_stretch(*channel.collision, depth, from, light.direction, w);
+    } else {
+      value = channel.ray->eval(from, light.direction, w);
+      if (depth < kLong)
+        value -= std::exp(-depth) * channel.ray->eval(from - light.direction * depth, light.direction, w);
+    }
+    result[c] = channel.volume_scale * std::max(0.0f, value);
+  }
+  return result;
+}
+
+template <class Source>
+Spectrum MultipleScattering::integrate(const Stretch& view, float nearest, float distance, float u, int samples,
+                                       const Source& source) const {
+  const float length = std::min(view.length, reach_);
+  if (!(length > 0)) return Spectrum();
+  const Exponential by_transmittance(mean_sigma_t_, length);
+  const Equiangular by_distance(std::clamp(nearest, 0.0f, length), std::max(distance, 1e-3f / mean_sigma_t_), length);
+  Spectrum sum;
+  const auto add = [&](float t) {
+    // Balance heuristic over both ways of placing points.
+    const float pdf_t = by_transmittance.pdf_t(t) + by_distance.pdf_t(t);
+    sum += exp(sigma_t_ * -t) * source(view.origin + view.direction * t, -view.direction) / pdf_t;
+  };
+  for (int i = 0; i < samples; ++i) {
+    const float stratum = (static_cast<float>(i) + u) / static_cast<float>(samples);
+    add(by_transmittance.sample(stratum));
+    add(by_distance.sample(stratum));
+  }
+  return sum / static_cast<float>(samples);
+}
+
+Spectrum MultipleScattering::radiance(const Vec3& at, const Vec3& direction, const Stretch& view, float u,
+                                      int samples) const {
+  const float nearest = dot(at - view.origin, view.direction);
+  const float distance = length(at - view.origin - view.direction * nearest);
+  return integrate(view, nearest, distance, u, samples,
+                   [&](const Vec3& x, const Vec3& w) { return source_radiance(at, direction, x, w); });
+}
+
+Spectrum MultipleScattering::radiance(const Stretch& light, const Stretch& view, float u, int samples) const {
+  // The nearest points of both lines; on the light's stretch within the mean free path that most of it collides in.
+  const Vec3 between = light.origin - view.origin;
+  const float cosine = dot(light.direction, view.direction);
+  const float sine_squared = std::max(1e-6f, 1 - cosine * cosine);
+  const float on_light =
+      std::clamp((cosine * dot(between, view.direction) - dot(between, light.direction)) / sine_squared, 0.0f,
+                 std::min(light.length, 2 / mean_sigma_t_));
+  const Vec3 at = light.origin + light.direction * on_light;
+  const float nearest = dot(at - view.origin, view.direction);
+  const float distance = length(at - view.origin - view.direction * nearest);
+  return integrate(view, nearest, distance, u, samples,
+                   [&](const Vec3& x, const Vec3& w) { return source_radiance(light, x, w); });
+}
+
+}  // namespace turbid

@@ -1,0 +1,103 @@
+#include "table/table_cache.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <mutex>
+
+#include "core/error.h"
+#include "core/hash.h"
+#include "core/log.h"
+#include "image/atomic_file.h"
+#include "table/table_file.h"
+
+namespace turbid {
+namespace {
+
+std::string cache_folder(const std::string& wanted) {
+  if (!wanted.empty()) return wanted;
+  const auto variable = [](const char* name) -> std::string {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+  };
+  if (const std::string folder = variable("TURBID_TABLES"); !folder.empty()) return folder;
+  if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache + "/turbid/tables";
+  const std::string home = variable("HOME");
+  return (home.empty() ? "." : home) + "/.cache/turbid/tables";
+}
+
+/// What is asked for in full.
+struct Order {
+  std::vector<double> moments;
+  TableShape shape;
+  SimulationSettings settings;
+  std::string path;
+
+  Order(const PhaseFunction& phase, const TableRequest& request)
+      : moments(legendre_moments(phase, 64)), settings(request.settings) {
+    shape.bands = choose_bands(phase);
+    if (settings.deposits == 0) settings.deposits = default_deposits(shape.bands);
+    // Rounded, so that the last digits of other processors do not count.
+    uint64_t key = hash_counters(kTableVersion, settings.seed, settings.deposits,
+                                 static_cast<uint64_t>(shape.grid.radii()), static_cast<uint64_t>(shape.grid.angles()));
+    for (const double moment : moments) key = hash_counters(key, static_cast<uint64_t>(std::llround(moment * 1e6)));
+    path = fmt::format("{}/g{:.3f}-{:016x}.h5", cache_folder(request.folder), moments[1], key);
+  }
+
+  bool matches(const ScatteringTable& table) const {
+    return table.shape.bands == shape.bands && table.shape.grid.cell_count() == shape.grid.cell_count() &&
+           table.seed == settings.seed && table.deposits == settings.deposits;
+  }
+};
+
+/// From the file; null when there is none that serves.
+std::shared_ptr<const ScatteringTable> load(const Order& order) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(order.path, ignored)) return nullptr;
+  try {
+    auto table = std::make_shared<ScatteringTable>(decode_table(read_file(order.path), order.path));
+    if (order.matches(*table)) return table;
+    log_warning(order.path + ": this table was made for something else; it is built anew");
+  } catch (const FileError& error) {
+    log_warning(std::string(error.what()) + "; it is built anew");
+  }
+  return nullptr;
+}
+
+void keep(const ScatteringTable& table, const std::string& path) {
+  try {
+    std::error_code error;
+    std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
+    write_file_atomically(path, encode_table(table));
+  } catch (const FileError& error) {
+    log_warning(std::string("a table of multiple scattering could not be kept: ") + error.what());
+  }
+}
+
+}  // namespace
+
+size_t default_deposits(const BandLimits& bands) {
+  return bands.degree == 0 ? 1'000'000 : bands.degree < 8 ? 1'500'000 : 2'000'000;
+}
+
+std::string table_path(const PhaseFunction& phase, const TableRequest& request) { return Order(phase, request).path; }
+
+std::shared_ptr<const ScatteringTable> find_table(const PhaseFunction& phase, const TableRequest& request) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const ScatteringTable>> in_use;
+  const Order order(phase, request);
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const ScatteringTable>& kept = in_use[order.path];
+  if (auto table = kept.lock()) return table;
+  std::shared_ptr<const ScatteringTable> table = load(order);
+  if (!table) {
+    table = std::make_shared<ScatteringTable>(build_table(phase, order.shape, order.settings));
+    keep(*table, order.path);
+  }
+  kept = table;
+  return table;
+}
+
+}  // namespace turbid
