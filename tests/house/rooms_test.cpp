@@ -75,6 +75,14 @@ TEST(Rooms, AreAllNamedHere) {
     EXPECT_TRUE(std::find(kRooms.begin(), kRooms.end(), entry.path().filename()) != kRooms.end()) << entry.path();
 }
 
+/// The label `slow` goes by the first letters of the full name, and a suite's prefix comes first.
+TEST(Files, InstantiateSlowSuitesAsSlow) {
+  for (const SourceFile& file : source_files(kRoot, {"tests"}))
+    for (const std::string& line : file.lines)
+      if (line.starts_with("INSTANTIATE_TEST_SUITE_P(") && line.find(", Slow") != std::string::npos)
+        EXPECT_TRUE(line.starts_with("INSTANTIATE_TEST_SUITE_P(Slow")) << file.path << ": " << line;
+}
+
 TEST(Files, AreShortEnoughToRead) {
   for (const SourceFile& file : source_files(kRoot, {"src", "tests", "bench", "experiments"}))
     EXPECT_LE(file.lines.size(), 600u) << file.path << " is too long: split it by ideas";

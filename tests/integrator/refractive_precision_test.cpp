@@ -98,9 +98,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, RefractivePrecision, ::testing::ValuesIn(seen_f
 
 class SlowRefractivePrecision : public ::testing::TestWithParam<Precision> {};
 TEST_P(SlowRefractivePrecision, Agrees) { expect_precise(GetParam(), 16); }
-INSTANTIATE_TEST_SUITE_P(FromWithin, SlowRefractivePrecision, ::testing::ValuesIn(seen_from_within(24, 0.008)),
+INSTANTIATE_TEST_SUITE_P(SlowFromWithin, SlowRefractivePrecision, ::testing::ValuesIn(seen_from_within(24, 0.008)),
                          [](const auto& instance) { return instance.param.name; });
-INSTANTIATE_TEST_SUITE_P(FromWithout, SlowRefractivePrecision, ::testing::ValuesIn(seen_from_without(0.01)),
+INSTANTIATE_TEST_SUITE_P(SlowFromWithout, SlowRefractivePrecision, ::testing::ValuesIn(seen_from_without(0.01)),
                          [](const auto& instance) { return instance.param.name; });
 
 }  // namespace

@@ -130,7 +130,7 @@ TEST(Completeness, OfPathsThroughMeshes) {
 class SlowCompleteness : public ::testing::TestWithParam<size_t> {};
 // 1000 rays and 256 starts (22 + 21 + ... is 253).
 TEST_P(SlowCompleteness, OfPathsThroughAMesh) { count_paths(settings()[GetParam()], 1000, 22); }
-INSTANTIATE_TEST_SUITE_P(Settings, SlowCompleteness, ::testing::Range(size_t{0}, settings().size()));
+INSTANTIATE_TEST_SUITE_P(Slow, SlowCompleteness, ::testing::Range(size_t{0}, settings().size()));
 
 TEST(PositionNormalTree, IsSmallAndHoldsItsTriangles) {
   for (const int subdivisions : {0, 3, 5}) {
