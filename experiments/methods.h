@@ -10,6 +10,9 @@
 
 namespace turbid::experiments {
 
+/// What an experiment's program does; `main` reports its exceptions. Returns the exit code.
+int run(int argc, char** argv);
+
 /// Scene parameters from texts "name=value".
 Overrides overrides(const std::vector<std::string>& definitions);
 

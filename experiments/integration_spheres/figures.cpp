@@ -149,6 +149,8 @@ void print_bias(const Options& options) {
   }
 }
 
+}  // namespace
+
 int run(int argc, char** argv) {
   CLI::App app("Gathering volumes: noise and bias");
   Options options;
@@ -173,14 +175,4 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace turbid::experiments
-
-int main(int argc, char** argv) {
-  try {
-    return turbid::experiments::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}

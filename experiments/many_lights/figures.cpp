@@ -135,6 +135,8 @@ void compare_with_unshadowed(const Options& options, const Setting& setting) {
   print_reference(comparison, caching, "not given");
 }
 
+}  // namespace
+
 int run(int argc, char** argv) {
   CLI::App app("The figures of importance caching as tables");
   Options options;
@@ -162,14 +164,4 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace turbid::experiments
-
-int main(int argc, char** argv) {
-  try {
-    return turbid::experiments::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}

@@ -112,6 +112,8 @@ void whole_scene(const std::string& file, uint32_t samples, const std::string& s
   print_costs(stage, methods, samples, stage.render(which + "mis", 64 * samples, 1000).image);
 }
 
+}  // namespace
+
 int run(int argc, char** argv) {
   CLI::App app("Once-more scattered connections: the figures of Hanika et al. 2022 as tables");
   app.require_subcommand(1);
@@ -134,14 +136,4 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace turbid::experiments
-
-int main(int argc, char** argv) {
-  try {
-    return turbid::experiments::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}

@@ -169,6 +169,8 @@ void figure_13(const std::string& scenes) {
   }
 }
 
+}  // namespace
+
 int run(int argc, char** argv) {
   CLI::App app("Refractive single scattering: the figures of S4 as tables and plots");
   app.require_subcommand(1);
@@ -206,14 +208,4 @@ int run(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace
 }  // namespace turbid::experiments
-
-int main(int argc, char** argv) {
-  try {
-    return turbid::experiments::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return 1;
-  }
-}
