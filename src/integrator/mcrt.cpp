@@ -127,8 +127,7 @@ void Mcrt::gather_pixels(const Scene& scene, uint64_t seed, uint64_t index, size
       light_ends_[pixel] = parts[task].light.size();
       ++counters.camera_samples;
     }
-    const std::lock_guard lock(counters_mutex_);
-    gathered_.add(counters);
+    add_counters(counters);
   });
   for (size_t task = 0; task < parts.size(); ++task) {
     const size_t before = light_.size();
@@ -144,11 +143,6 @@ void Mcrt::gather_pixels(const Scene& scene, uint64_t seed, uint64_t index, size
 Counters Mcrt::counters() const {
   Counters result = SplattingIntegrator::counters();
   const std::lock_guard lock(counters_mutex_);
-  result["camera_samples"] += gathered_.camera_samples;
-  result["rays"] += gathered_.rays;
-  result["shadow_rays"] += gathered_.shadow_rays;
-  result["collisions"] += gathered_.collisions;
-  result["free_flights"] += gathered_.free_flights;
   result["volumes"] = volumes_;
   result["disks"] = disks_;
   result["light_segments"] = deposits_.segments;

@@ -68,7 +68,6 @@ class Mcrt : public SplattingIntegrator {
 
   mutable std::mutex counters_mutex_;
   mutable DepositCounters deposits_;
-  SampleCounters gathered_;
   uint64_t volumes_ = 0, disks_ = 0;
 };
 

@@ -51,6 +51,9 @@ class SplattingIntegrator : public Integrator {
   /// Writes what each Technique contributes into layers of its own, named technique.NAME.{R,G,B}.
   void show_techniques() { shows_techniques_ = true; }
 
+  /// Counts what happened outside of workers, too: from any thread.
+  void add_counters(const SampleCounters& counters);
+
  private:
   class PilotSink;
   class PassSink;
@@ -59,7 +62,6 @@ class SplattingIntegrator : public Integrator {
   int strategy_layer(int light_vertices, int edges) const;
   /// The first channel of a technique; behind all strategies.
   size_t technique_channel(Technique technique) const;
-  void add_counters(const SampleCounters& counters);
 
   std::vector<OrderLayer> order_layers_;
   int shown_edges_ = 0;

@@ -121,8 +121,7 @@ void Upbp::trace_photons(const Scene& scene, uint64_t seed, uint64_t index, size
       recorder.begin(path < with_beams, parts[task]);
       walk.run(*sources_);
     }
-    const std::lock_guard lock(counters_mutex_);
-    traced_.add(counters);
+    add_counters(counters);
   });
   for (Photons& part : parts) map_.photons.append(std::move(part));
 }
@@ -174,8 +173,7 @@ Upbp::Observation Upbp::observe(const Scene& scene, uint64_t seed, const StopFla
           }
         }
       }
-      const std::lock_guard lock(counters_mutex_);
-      traced_.add(counters);
+      add_counters(counters);
     });
   }
   Observation result;
@@ -192,11 +190,6 @@ Upbp::Observation Upbp::observe(const Scene& scene, uint64_t seed, const StopFla
 Counters Upbp::counters() const {
   Counters result = SplattingIntegrator::counters();
   const std::lock_guard lock(counters_mutex_);
-  result["light_paths"] += traced_.light_paths;
-  result["rays"] += traced_.rays;
-  result["shadow_rays"] += traced_.shadow_rays;
-  result["collisions"] += traced_.collisions;
-  result["free_flights"] += traced_.free_flights;
   result["photons"] = points_;
   result["photon_beams"] = beams_;
   result["point_queries"] = merges_.point_queries;

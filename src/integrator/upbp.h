@@ -90,7 +90,6 @@ class Upbp : public SplattingIntegrator {
 
   mutable std::mutex counters_mutex_;
   mutable MergeCounters merges_;
-  SampleCounters traced_;
   uint64_t points_ = 0, beams_ = 0;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
 
 #include "integrator/advice.h"
 #include "integrator/camera_sample.h"
@@ -70,6 +72,29 @@ std::string difference(const PathSupport& a, const PathSupport& b) {
 }
 
 }  // namespace
+
+Film render_samples(const std::string& xml, const std::string& integrator, uint32_t count, int threads,
+                    uint32_t first) {
+  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
+  const IntegratorSetup setup =
+      make_integrator(replacement(loaded.integrator, integrator).description, loaded.document.get());
+  const Scene scene(std::move(loaded.parts));
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
+  tbb::task_arena arena(threads);
+  return arena.execute([&] {
+    constexpr uint64_t kSeed = 1;
+    StopFlag stop;
+    setup.integrator->prepare(scene, kSeed, stop);
+    Film film(scene.film().image_size(), setup.integrator->layer_names());
+    setup.integrator->render_pass(scene, {kSeed, first, count}, film, stop);
+    return film;
+  });
+}
+
+void expect_same(const Film& a, const Film& b) {
+  for (size_t i = 0; i < a.pixel_count(); ++i)
+    for (int c = 0; c < kChannels; ++c) EXPECT_EQ(a.pixel(i).radiance[c], b.pixel(i).radiance[c]) << i;
+}
 
 Observation observe(const std::string& xml, const Contestant& contestant, int block) {
   LoadedScene loaded = load_scene_from_string(xml, "test scene", {});

@@ -20,6 +20,12 @@ struct Contestant {
   uint64_t seed = 1;
 };
 
+/// The samples [first, first + count) of every pixel by `integrator` (as on the command line), with so many threads.
+Film render_samples(const std::string& xml, const std::string& integrator, uint32_t count, int threads = 2,
+                    uint32_t first = 0);
+/// Asserts that the pictures are the same bits.
+void expect_same(const Film& a, const Film& b);
+
 /// What one contestant saw.
 struct Observation {
   PassStatistics all;

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include <map>
 
@@ -16,11 +14,6 @@ namespace turbid::testing {
 namespace {
 
 using namespace pieces;
-
-const SuiteScene& suite_scene(const std::string& name) {
-  static const std::vector<SuiteScene> scenes = suite();
-  return *std::find_if(scenes.begin(), scenes.end(), [&](const SuiteScene& s) { return s.name == name; });
-}
 
 // Without the light over shorter lines: it has no variance (NUMERICS 6).
 constexpr float kLeastDistance = 0.3f;
@@ -143,31 +136,9 @@ TEST(SlowManyLightsSamplers, MakeThePictureOfAllLights) {
 // --- the pass structure ---------------------------------------------------------------------------------------------
 
 Film render_vpl(const std::string& settings, uint32_t first, uint32_t samples, int threads = 2) {
-  LoadedScene loaded = load_scene_from_string(suite_scene("lamp in fog, any length").xml, "test scene", {});
-  std::vector<std::pair<std::string, std::string>> values = {
-      {"lights", "50"}, {"surface_caches", "20"}, {"volume_caches", "20"}, {"reuse", "2"}};
-  for (size_t at = 0; at < settings.size();) {
-    const size_t end = std::min(settings.find(',', at), settings.size()), equals = settings.find('=', at);
-    values.emplace_back(settings.substr(at, equals - at), settings.substr(equals + 1, end - equals - 1));
-    at = end + 1;
-  }
-  const IntegratorSetup setup =
-      make_integrator(replace_integrator(loaded.integrator, "vpl", values).description, loaded.document.get());
-  const Scene scene(std::move(loaded.parts));
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
-  tbb::task_arena arena(threads);
-  return arena.execute([&] {
-    StopFlag stop;
-    setup.integrator->prepare(scene, 1, stop);
-    Film film(scene.film().image_size());
-    setup.integrator->render_pass(scene, {1, first, samples}, film, stop);
-    return film;
-  });
-}
-
-void expect_same(const Film& a, const Film& b) {
-  for (size_t i = 0; i < a.pixel_count(); ++i)
-    for (int c = 0; c < kChannels; ++c) EXPECT_EQ(a.pixel(i).radiance[c], b.pixel(i).radiance[c]) << i;
+  const std::string small = "vpl,lights=50,surface_caches=20,volume_caches=20,reuse=2";
+  return render_samples(suite_scene("lamp in fog, any length").xml, small + (settings.empty() ? "" : "," + settings),
+                        samples, threads, first);
 }
 
 TEST(ManyLightsPasses, DoNotDependOnThreads) {

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include "integrator/agreement.h"
 #include "integrator/endless_fog.h"
@@ -14,16 +12,6 @@ namespace turbid::testing {
 namespace {
 
 using namespace pieces;
-
-const SuiteScene& suite_scene(const std::string& name) {
-  static const std::vector<SuiteScene> scenes = suite();
-  return *std::find_if(scenes.begin(), scenes.end(), [&](const SuiteScene& scene) { return scene.name == name; });
-}
-
-std::string name_of(std::string name) {
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-}
 
 // --- at a fixed radius all q have the same expectation --------------------------------------------------------------
 
@@ -54,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
     Estimators, FixedRadius,
     ::testing::Values(QCase{"lamp in fog, any length", "track", 32}, QCase{"lamp in fog, any length", "collision", 64},
                       QCase{"chromatic medium", "track", 32}, QCase{"heterogeneous medium", "track", 32}),
-    [](const auto& instance) { return name_of(std::string(instance.param.scene) + "_" + instance.param.estimator); });
+    [](const auto& instance) { return test_name(std::string(instance.param.scene) + "_" + instance.param.estimator); });
 
 /// Collisions in balls and flights through disks: both count the light at the centre, up to the square of the radius.
 TEST(McrtEstimators, CollisionsAndTracksAgree) {
@@ -154,31 +142,13 @@ TEST_P(McrtAgreementEverywhere, WithBdpt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SlowScenes, McrtAgreementEverywhere, ::testing::ValuesIn(suite()),
-                         [](const auto& instance) { return name_of(instance.param.name); });
+                         [](const auto& instance) { return test_name(instance.param.name); });
 
-// --- the pass structure
-// -----------------------------------------------------------------------------------------------
+// --- the pass structure ---------------------------------------------------------------------------------------------
 
 Film render_mcrt(const std::string& settings, uint32_t samples, int threads = 2,
                  const std::string& xml = suite_scene("lamp in fog, any length").xml) {
-  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
-  std::vector<std::pair<std::string, std::string>> values = {{"radius", "0.1"}};
-  for (size_t at = 0; at < settings.size();) {
-    const size_t end = std::min(settings.find(',', at), settings.size()), equals = settings.find('=', at);
-    values.emplace_back(settings.substr(at, equals - at), settings.substr(equals + 1, end - equals - 1));
-    at = end + 1;
-  }
-  const auto replaced = replace_integrator(loaded.integrator, "mcrt", values);
-  const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
-  const Scene scene(std::move(loaded.parts));
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
-  tbb::task_arena arena(threads);
-  return arena.execute([&] { return render_with(scene, *setup.integrator, samples); });
-}
-
-void expect_same(const Film& a, const Film& b) {
-  for (size_t i = 0; i < a.pixel_count(); ++i)
-    for (int c = 0; c < kChannels; ++c) EXPECT_EQ(a.pixel(i).radiance[c], b.pixel(i).radiance[c]) << i;
+  return render_samples(xml, "mcrt,radius=0.1," + settings, samples, threads);
 }
 
 TEST(McrtPasses, DoNotDependOnThreads) {

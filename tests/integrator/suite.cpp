@@ -159,4 +159,14 @@ std::vector<SuiteScene> suite() {
   };
 }
 
+const SuiteScene& suite_scene(const std::string& name) {
+  static const std::vector<SuiteScene> scenes = suite();
+  return *std::find_if(scenes.begin(), scenes.end(), [&](const SuiteScene& scene) { return scene.name == name; });
+}
+
+std::string test_name(std::string name) {
+  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+}
+
 }  // namespace turbid::testing

@@ -43,5 +43,9 @@ struct SuiteScene {
 
 /// What every pair of integrators is compared on.
 std::vector<SuiteScene> suite();
+/// The scene of that name.
+const SuiteScene& suite_scene(const std::string& name);
+/// A name as GoogleTest wants it.
+std::string test_name(std::string name);
 
 }  // namespace turbid::testing

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <tbb/global_control.h>
-#include <tbb/task_arena.h>
 
 #include "integrator/agreement.h"
 #include "integrator/suite.h"
@@ -14,37 +12,9 @@ namespace {
 
 using namespace pieces;
 
-const SuiteScene& suite_scene(const std::string& name) {
-  static const std::vector<SuiteScene> scenes = suite();
-  return *std::find_if(scenes.begin(), scenes.end(), [&](const SuiteScene& scene) { return scene.name == name; });
-}
-
-std::string name_of(std::string name) {
-  for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-}
-
-Film render_upbp(const std::string& settings, uint32_t samples, int threads = 2,
+Film render_upbp(const std::string& integrator, uint32_t samples, int threads = 2,
                  const std::string& xml = suite_scene("lamp in fog, any length").xml) {
-  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
-  std::vector<std::pair<std::string, std::string>> values;
-  const size_t comma = std::min(settings.find(','), settings.size());
-  for (size_t at = comma + 1; at < settings.size();) {
-    const size_t end = std::min(settings.find(',', at), settings.size()), equals = settings.find('=', at);
-    values.emplace_back(settings.substr(at, equals - at), settings.substr(equals + 1, end - equals - 1));
-    at = end + 1;
-  }
-  const auto replaced = replace_integrator(loaded.integrator, settings.substr(0, comma), values);
-  const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
-  const Scene scene(std::move(loaded.parts));
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
-  tbb::task_arena arena(threads);
-  return arena.execute([&] { return render_with(scene, *setup.integrator, samples); });
-}
-
-void expect_same(const Film& a, const Film& b) {
-  for (size_t i = 0; i < a.pixel_count(); ++i)
-    for (int c = 0; c < kChannels; ++c) EXPECT_EQ(a.pixel(i).radiance[c], b.pixel(i).radiance[c]) << i;
+  return render_samples(xml, integrator, samples, threads);
 }
 
 // --- the same sums ---------------------------------------------------------------------------------------------------
@@ -105,7 +75,7 @@ TEST_P(UpbpTechnique, AgreesWithBdpt) {
 INSTANTIATE_TEST_SUITE_P(Sets, UpbpTechnique,
                          ::testing::Values("surf+pp3d", "surf+pb2d", "surf+bp2d", "surf+bb1d", "bpt+bb1d",
                                            "surf+pp3d+pb2d+bp2d+bb1d", "bpt+surf+pp3d+pb2d+bp2d+bb1d"),
-                         [](const auto& instance) { return name_of(instance.param); });
+                         [](const auto& instance) { return test_name(instance.param); });
 
 TEST(Upbp, LongAndShortBeamsAgree) {
   for (const char* kind : {",photon_beams=long", ",sensor_beams=long", ",photon_beams=long,sensor_beams=long"})
@@ -132,7 +102,7 @@ TEST_P(UpbpEverywhere, AgreesWithBdpt) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SlowScenes, UpbpEverywhere, ::testing::ValuesIn(suite()),
-                         [](const auto& instance) { return name_of(instance.param.name); });
+                         [](const auto& instance) { return test_name(instance.param.name); });
 
 // --- what users say
 // ----------------------------------------------------------------------------------------------------
