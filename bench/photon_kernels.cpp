@@ -29,7 +29,7 @@ Photons photons_of(size_t paths, bool beams) {
   PathSettings settings;
   Sampler sampler(SamplerKind::kIndependent, 1);
   SampleCounters counters;
-  PhotonRecorder recorder(foggy_room(), weights, {!beams, false, false, beams, false}, counters);
+  PhotonRecorder recorder(foggy_room(), weights, {!beams, false, false, beams, false}, nullptr, counters);
   LightWalk<PhotonRecorder> walk(foggy_room(), settings, sampler, counters, recorder);
   Photons result;
   for (uint64_t path = 0; path < paths; ++path) {

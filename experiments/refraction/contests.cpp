@@ -16,6 +16,9 @@ namespace {
 
 const std::string kOrderOne = ",min_scattering=1,max_scattering=1";
 const std::string kIntervals = "singlescatter" + kOrderOne;
+/// What is left of the noise under a lamp with a size is light that the boundary reflects inside before it scatters:
+/// paths from both ends find that.
+const std::string kIntervalsAndPaths = "bdpt,single_scattering=refractive" + kOrderOne;
 const std::string kPoints = "singlescatter,method=point_sampling,samples=4" + kOrderOne;
 constexpr uint64_t kSeed = 1, kReferenceSeed = 1000;
 
@@ -63,11 +66,11 @@ struct Row {
 /// Methods on one stage against one reference.
 class Contest {
  public:
-  Contest(std::string name, Stage stage, const ContestSettings& settings)
+  Contest(std::string name, Stage stage, const ContestSettings& settings, const std::string& reference)
       : name_(std::move(name)),
         stage_(std::move(stage)),
         settings_(settings),
-        reference_(stage_.render(kIntervals, settings.reference_samples, kReferenceSeed).image) {
+        reference_(stage_.render(reference, settings.reference_samples, kReferenceSeed).image) {
     keep("reference", reference_);
   }
 
@@ -125,24 +128,26 @@ constexpr double kLampRadius = 0.1;
 
 void print_equal_time(const ContestSettings& settings, bool of_statue) {
   const Subject subject = of_statue ? statue(settings.size) : bumpy_ball(settings.size);
-  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings);
+  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings, kIntervals);
   print_head(subject.name + ", point light, equal time");
   const Row intervals = point.run("triangle intervals", kIntervals, settings.samples);
   print_row(intervals, intervals);
   print_row(point.run("triangle intervals, midpoint", kIntervals + ",midpoint=true", settings.samples), intervals);
   print_row(point.run_for("point sampling", kPoints, intervals.shot.seconds), intervals);
 
-  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings);
+  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings,
+                     kIntervalsAndPaths);
   print_head(fmt::format("{}, lamp of radius {}, equal time", subject.name, kLampRadius));
   const Row by_lamp = lamp.run("triangle intervals", kIntervals, settings.samples);
   print_row(by_lamp, by_lamp);
+  print_row(lamp.run_for("triangle intervals, bdpt", kIntervalsAndPaths, by_lamp.shot.seconds), by_lamp);
   for (const char* other : {"bdpt", "volpath", "mcrt"})
     print_row(lamp.run_for(other, other + kOrderOne, by_lamp.shot.seconds), by_lamp);
 }
 
 void print_equal_quality(const ContestSettings& settings, double factor) {
   const Subject subject = bumpy_ball(settings.size);
-  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings);
+  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings, kIntervals);
   print_head(fmt::format("{}, point light, others {} times as long", subject.name, factor));
   const Row intervals = point.run("triangle intervals", kIntervals, settings.samples);
   print_row(intervals, intervals);
@@ -152,10 +157,12 @@ void print_equal_quality(const ContestSettings& settings, double factor) {
                             factor * intervals.shot.seconds),
               intervals);
 
-  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings);
+  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings,
+                     kIntervalsAndPaths);
   print_head(fmt::format("{}, lamp of radius {}, others {} times as long", subject.name, kLampRadius, factor));
   const Row by_lamp = lamp.run("triangle intervals", kIntervals, settings.samples);
   print_row(by_lamp, by_lamp);
+  print_row(lamp.run_for("triangle intervals, bdpt", kIntervalsAndPaths, by_lamp.shot.seconds), by_lamp);
   for (const char* other : {"bdpt", "mcrt"})
     print_row(lamp.run_for(other, other + kOrderOne, factor * by_lamp.shot.seconds), by_lamp);
 }

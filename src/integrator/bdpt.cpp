@@ -6,8 +6,8 @@ namespace turbid {
 std::unique_ptr<SplattingIntegrator::Worker> BidirectionalPathTracer::make_worker(const Scene& scene, uint64_t seed,
                                                                                   SampleCounters& counters) const {
   using Tracer = BidirectionalWorker<SensorSubpath>;
-  return std::make_unique<Tracer>(Tracer::Shared{scene, *sources_, settings_, weights_, own_.connections}, seed,
-                                  counters);
+  return std::make_unique<Tracer>(
+      Tracer::Shared{scene, *sources_, settings_, weights_, own_.connections, scattering_.get()}, seed, counters);
 }
 
 Parameter heuristic_parameter(const std::string& value) {
@@ -40,11 +40,13 @@ IntegratorPlugin bdpt_row() {
                 ParameterType::kInteger,
                 "6",
                 "most edges of the paths in these layers",
-                {.min = 1, .max = 16}}}),
+                {.min = 1, .max = 16}},
+               single_scattering_parameter()}),
           [](const Properties& properties) {
             BdptSettings own;
             own.heuristic = heuristic_of(properties);
             own.connections = properties.number("connections");
+            own.refraction = refraction_settings(properties);
             if (properties.boolean("visualize_strategies"))
               own.shown_edges = static_cast<int>(properties.integer("visualize_depth"));
             return IntegratorSetup{std::make_shared<BidirectionalPathTracer>(path_settings(properties), own), false};

@@ -5,6 +5,7 @@
 #include "integrator/splatting_integrator.h"
 #include "path/light_sources.h"
 #include "path/strategy_sums.h"
+#include "refraction/refractive_scattering.h"
 
 namespace turbid {
 
@@ -13,7 +14,8 @@ struct BdptSettings {
   /// Of the lines that join the two subpaths into paths of one length about so many are tried, all of them where there
   /// are fewer: long subpaths have too many.
   float connections = 8;
-  int shown_edges = 0;  ///< see SplattingIntegrator::show_strategies
+  int shown_edges = 0;                           ///< see SplattingIntegrator::show_strategies
+  std::optional<RefractiveSettings> refraction;  ///< of single scattering; empty: by paths, too
 };
 
 /// Bidirectional path tracing (Veach and Guibas 1995, Lafortune and Willems 1993) in scenes with media: a walk from a
@@ -36,13 +38,17 @@ class BidirectionalPathTracer : public SplattingIntegrator {
 
  protected:
   std::unique_ptr<Worker> make_worker(const Scene& scene, uint64_t seed, SampleCounters& counters) const override;
-  void prepare_workers(const Scene& scene) override { sources_.emplace(scene, true); }
+  void prepare_workers(const Scene& scene) override {
+    sources_.emplace(scene, true);
+    if (own_.refraction) scattering_ = std::make_unique<const RefractiveScattering>(scene, *own_.refraction);
+  }
 
  private:
   PathSettings settings_;
   BdptSettings own_;
   StrategyWeights weights_;
   std::optional<LightSources> sources_;
+  std::unique_ptr<const RefractiveScattering> scattering_;
 };
 
 /// The parameter `heuristic` of bidirectional methods; `value`: its default.

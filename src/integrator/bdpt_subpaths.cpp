@@ -14,6 +14,7 @@ float weight_of(double others) { return static_cast<float>(1 / (1 + others)); }
 
 void LightSubpath::at_emitter(const Emission& emission, const Traveller& traveller) {
   LightRecorder::at_emitter(emission, traveller);
+  counted_.left(*emission.emitter);
   const PathSettings& settings = context_.settings;
   if (settings.hide_emitters || settings.min_scattering > 0) return;
   const auto arrival = context_.sensor.arrive_from(emission, traveller);
@@ -33,18 +34,22 @@ void LightSubpath::at_emitter(const Emission& emission, const Traveller& travell
 void LightSubpath::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
   current_ = arrive({event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given))}, state);
   if (!(event.object.bsdf->flags() & lobe::kSmooth)) return;
-  vertices_.emplace_back(event, state, traveller.medium()).sums = current_;
-  join_with_sensor(vertices_.back(), traveller);
+  Vertex& vertex = vertices_.emplace_back(event, state, traveller.medium());
+  vertex.sums = current_;
+  vertex.bent = counted_.is_bent();
+  join_with_sensor(vertex, traveller);
 }
 
 void LightSubpath::at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
   Vertex& vertex = vertices_.emplace_back(event, state);
+  counted_.collided(event.medium);
+  vertex.bent = counted_.is_bent();
   vertex.sums = current_ = arrive({event.position, vertex.events}, state);
   join_with_sensor(vertex, traveller);
 }
 
 void LightSubpath::join_with_sensor(const Vertex& vertex, const Traveller& traveller) {
-  if (!context_.settings.order_counts(vertex.order)) return;
+  if (!context_.settings.order_counts(vertex.order) || turbid::counted_elsewhere(vertex.bent, vertex.order)) return;
   const auto way = context_.sensor.way_from(vertex.position);
   if (!way) return;
   const Vec3 wo = normalize(way->position - vertex.position);
@@ -81,6 +86,14 @@ void SensorSubpath::gather_by_chance(const Spectrum& value, double others, const
   gather(value, others, 0, state.depth + 1, state.order);
 }
 
+void SensorSubpath::before_flight(const Medium& medium, const PathState& state, const Traveller& traveller) {
+  if (!refraction_) return;
+  sink_->gather({.value = refraction_->before_flight(medium, state, traveller),
+                 .light_vertices = 2,  // the light and P; V is the sensor's
+                 .sensor_vertices = state.depth + 2,
+                 .order = 1});
+}
+
 void SensorSubpath::on_segment(const Ray& way, const Medium& medium, const PathState& state,
                                const Traveller::Leg& leg) {
   SubpathRecorder::on_segment(way, medium, state, leg);
@@ -100,6 +113,7 @@ StrategySums SensorSubpath::first_sums(const EdgeEnd& end, const Spectrum& strai
 void SensorSubpath::at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
                              const Traveller& traveller) {
   if (!context_.settings.order_counts(state.order) || (state.depth == 1 && context_.settings.hide_emitters)) return;
+  if (counted_elsewhere(false)) return;
   const SurfaceEmitter& emitter = *object.emitter;
   const Vec3 wo = -traveller.ray().direction;
   const Spectrum Le = emitter.Le(point, wo);
@@ -124,6 +138,7 @@ void SensorSubpath::at_light(const Hit& hit, const Object& object, const Surface
 
 void SensorSubpath::at_escape(const PathState& state, const Traveller& traveller) {
   if (!context_.settings.order_counts(state.order) || (state.depth == 1 && context_.settings.hide_emitters)) return;
+  if (counted_elsewhere(true)) return;
   const Vec3& direction = traveller.ray().direction;
   const double through = end_factor(Spectrum(1.0f), 1, straight_);
   for (const ChosenEnvironment& sky : context_.scene.environments()) {
@@ -223,11 +238,11 @@ void SensorSubpath::join(const Vertex& vertex, const Traveller& traveller) {
     if (sum < 1) continue;
     sum -= 1;
     if (edges > context_.settings.max_depth) return;
-    if (!context_.settings.order_counts(vertex.order + light.order)) continue;
+    const int order = vertex.order + light.order;
+    if (!context_.settings.order_counts(order) || turbid::counted_elsewhere(light.bent, order)) continue;
     ++context_.counters.connections;
     const auto joined = turbid::join(context_.scene, weights_, vertex, light, traveller);
-    if (joined)
-      gather(joined->value / prob, joined->others, light.depth + 1, vertex.depth + 1, vertex.order + light.order);
+    if (joined) gather(joined->value / prob, joined->others, light.depth + 1, vertex.depth + 1, order);
   }
 }
 

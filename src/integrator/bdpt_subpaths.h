@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "integrator/refractive_gatherer.h"
 #include "integrator/splatting_integrator.h"
 #include "path/join.h"
 #include "path/light_recorder.h"
@@ -16,6 +17,7 @@ struct BdptContext {
   const StrategyWeights& weights;
   float connections;  ///< BdptSettings::connections
   const SensorConnector& sensor;
+  const RefractiveScattering* refraction;  ///< finds some of the light; null: subpaths find everything
   SampleCounters& counters;
 };
 
@@ -23,7 +25,9 @@ struct BdptContext {
 class LightSubpath : public LightRecorder {
  public:
   explicit LightSubpath(const BdptContext& context)
-      : LightRecorder(context.scene, context.weights), context_(context) {}
+      : LightRecorder(context.scene, context.weights),
+        context_(context),
+        counted_(RefractiveScattering::counted_light(context.refraction)) {}
 
   void begin(ContributionSink& sink) {
     sink_ = &sink;
@@ -34,11 +38,17 @@ class LightSubpath : public LightRecorder {
   void at_emitter(const Emission& emission, const Traveller& traveller);
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
+                    const Traveller& traveller) {
+    LightRecorder::left_surface(event, sample, chosen, state, traveller);
+    counted_.left_surface(event, sample, traveller.medium_towards(event, chosen));
+  }
 
  private:
   void join_with_sensor(const Vertex& vertex, const Traveller& traveller);
 
   const BdptContext& context_;
+  CountedLight counted_;
   ContributionSink* sink_ = nullptr;
   std::vector<Vertex> vertices_;
 };
@@ -55,8 +65,12 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
     sink_ = &sink;
     u_aperture_ = camera.u_aperture;
     selection_ = Rng(selection);
+    if (context_.refraction)
+      refraction_.emplace(*context_.refraction, context_.scene, context_.settings, sampler_, context_.counters);
     start_edge();
   }
+
+  void before_flight(const Medium& medium, const PathState& state, const Traveller& traveller);
 
   void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg);
   void at_light(const Hit& hit, const Object& object, const SurfacePoint& point, const PathState& state,
@@ -64,6 +78,16 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
   void at_escape(const PathState& state, const Traveller& traveller);
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
+                    const Traveller& traveller) {
+    SubpathRecorder::left_surface(event, sample, chosen, state, traveller);
+    if (refraction_) refraction_->left_surface(event, sample, traveller);
+  }
+  void left_collision(const CollisionEvent& event, float mu, const Vec3& chosen, const PathState& state,
+                      const Traveller& traveller) {
+    SubpathRecorder::left_collision(event, mu, chosen, state, traveller);
+    if (refraction_) refraction_->left_collision(event, state);
+  }
 
  protected:
   /// The sums where an edge ends that lets `straight` through; `depth`: edges up to there.
@@ -87,9 +111,11 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
   double others_of_direct(const Vertex& vertex, const EmitterChoice& choice, const DirectLightSample& light,
                           const Vertex::Scattering& scattered, const Spectrum& proxy) const;
   void join(const Vertex& vertex, const Traveller& traveller);
+  bool counted_elsewhere(bool environment) const { return refraction_ && refraction_->has_counted(environment); }
 
   Sampler& sampler_;
   const std::vector<Vertex>& light_vertices_;
+  std::optional<RefractiveGatherer> refraction_;
   Vec2 u_aperture_;
   Rng selection_;
 };

@@ -15,6 +15,7 @@ class BidirectionalWorker final : public SplattingIntegrator::Worker {
     const PathSettings& settings;
     const StrategyWeights& weights;
     float connections;
+    const RefractiveScattering* refraction;  ///< BdptContext::refraction
   };
 
   /// `more`: what the recorder takes beside what SensorSubpath does.
@@ -25,7 +26,8 @@ class BidirectionalWorker final : public SplattingIntegrator::Worker {
         light_sampler_(scene_.sampler(), hash_counters(seed, kLightStream)),
         sensor_sampler_(scene_.sampler(), seed),
         connector_(scene_, static_cast<double>(pixel_count(scene_.film())), light_sampler_, counters),
-        context_{scene_, shared.sources, shared.settings, shared.weights, shared.connections, connector_, counters},
+        context_{scene_,     shared.sources,    shared.settings, shared.weights, shared.connections,
+                 connector_, shared.refraction, counters},
         light_(context_),
         sensor_(context_, sensor_sampler_, light_.vertices(), std::forward<More>(more)...),
         light_walk_(scene_, shared.settings, light_sampler_, counters, light_),

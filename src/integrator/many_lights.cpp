@@ -91,7 +91,9 @@ std::unique_ptr<SplattingIntegrator::Worker> ManyLights::make_worker(const Scene
 void ManyLights::prepare_workers(const Scene& scene) {
   sources_.emplace(scene, true);
   own_.lines.max_depth = path_.max_depth;
-  plan_.emplace(ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.rays});
+  if (own_.refraction) scattering_ = std::make_unique<const RefractiveScattering>(scene, *own_.refraction);
+  plan_.emplace(
+      ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.rays, scattering_.get()});
   set_.reset();
   paths_ = 0;
 }

@@ -17,6 +17,7 @@ struct ManyLightsSettings {
   LineSettings lines;
   VolumePoints volume_points;
   CacheSettings caches;
+  std::optional<RefractiveSettings> refraction;  ///< of single scattering; empty: by paths
 };
 
 /// Rendering by virtual point lights (Keller 1997) and ray lights (Novak et al. 2012): light paths leave lights where
@@ -48,6 +49,7 @@ class ManyLights : public SplattingIntegrator {
   PathSettings path_;
   ManyLightsSettings own_;
   std::optional<LightSources> sources_;
+  std::unique_ptr<const RefractiveScattering> scattering_;
   std::optional<ShadingPlan> plan_;
 
   // The set of lights that is in use.

@@ -56,7 +56,8 @@ std::vector<Parameter> parameters(bool rays) {
         "virtual lights nearer than this count as at this distance: less noise, and darker; 0: as they are",
         kNonNegative},
        {"least_distance", ParameterType::kFloat, "0",
-        "virtual lights nearer than this are left out, for comparisons; 0: all count", kNonNegative}});
+        "virtual lights nearer than this are left out, for comparisons; 0: all count", kNonNegative},
+       single_scattering_parameter()});
 }
 
 ManyLightsSettings settings_of(const Properties& properties, bool rays) {
@@ -77,6 +78,7 @@ ManyLightsSettings settings_of(const Properties& properties, bool rays) {
                 static_cast<size_t>(count("memory")) << 20};
   own.lines.clamp_distance = properties.number("clamp_distance");
   own.lines.least_distance = properties.number("least_distance");
+  own.refraction = refraction_settings(properties);
   return own;
 }
 

@@ -54,20 +54,15 @@ IntegratorPlugin direct_row() {
 
 IntegratorPlugin volpath_row() {
   std::vector<Parameter> own = connection_parameters("nee", "light");
-  own.push_back(word("single_scattering", "path",
-                     "light that one smooth boundary of triangles bends before it scatters once: found by paths, or as "
-                     "singlescatter finds it",
-                     {"path", "refractive"}));
+  own.push_back(single_scattering_parameter());
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
           with_common_parameters(own),
           [](const Properties& properties) {
-            const bool refractive = properties.string("single_scattering") == "refractive";
             return IntegratorSetup{
-                std::make_shared<PathTracer>(
-                    Kind::kVolumes, path_settings(properties), connection_settings(properties, "nee"),
-                    refractive ? std::optional<RefractiveSettings>(std::in_place) : std::nullopt),
+                std::make_shared<PathTracer>(Kind::kVolumes, path_settings(properties),
+                                             connection_settings(properties, "nee"), refraction_settings(properties)),
                 false};
           }};
 }

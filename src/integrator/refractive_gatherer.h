@@ -1,9 +1,16 @@
 #pragma once
-#include "path/path_settings.h"
+#include <optional>
+
+#include "integrator/integrator_plugin.h"
 #include "path/traveller.h"
 #include "refraction/refractive_scattering.h"
 
 namespace turbid {
+
+/// The parameter `single_scattering` of integrators that can add RefractiveScattering, and what it says: empty, paths
+/// find everything.
+Parameter single_scattering_parameter();
+std::optional<RefractiveSettings> refraction_settings(const Properties& properties);
 
 /// Adds the single scattering that RefractiveScattering finds to a walk from the sensor, and tells which light the walk
 /// must not count a second time. What a recorder hears of its walk it passes on.
@@ -34,9 +41,7 @@ class RefractiveGatherer {
     path_.collided(event.medium, state.order);
   }
   void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Traveller& traveller) {
-    const bool bounds = event.object.bounds_media;
-    path_.left_surface(event, sample,
-                       bounds ? event.object.medium_towards(event.point.ng, event.given) : traveller.medium());
+    path_.left_surface(event, sample, traveller.medium_towards(event, event.given));
   }
   /// The light that the walk has come to is counted by before_flight.
   bool has_counted(bool environment) const { return path_.is_counted(environment); }

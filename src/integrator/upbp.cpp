@@ -19,8 +19,8 @@ class Upbp::Tracer final : public SplattingIntegrator::Worker {
  public:
   Tracer(const Upbp& owner, const Scene& scene, uint64_t seed, SampleCounters& counters)
       : owner_(owner),
-        worker_({scene, *owner.sources_, owner.path_, *owner.weights_, owner.own_.connections}, seed, counters,
-                *owner.gatherer_, owner.own_.long_flights, work_) {}
+        worker_({scene, *owner.sources_, owner.path_, *owner.weights_, owner.own_.connections, owner.scattering_.get()},
+                seed, counters, *owner.gatherer_, owner.own_.long_flights, work_) {}
 
   ~Tracer() override {
     const std::lock_guard lock(owner_.counters_mutex_);
@@ -56,6 +56,7 @@ void Upbp::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
 
 void Upbp::prepare_workers(const Scene& scene) {
   sources_.emplace(scene, true);
+  if (own_.refraction) scattering_ = std::make_unique<const RefractiveScattering>(scene, *own_.refraction);
   first_radius_ = own_.radius ? *own_.radius : default_media_radius(scene, own_.pixels);
   first_surface_radius_ = own_.surface_radius ? *own_.surface_radius : default_surface_radius(scene, own_.pixels);
   leaves_.collisions = own_.uses(Technique::kPointPoint) || own_.uses(Technique::kPointBeam);
@@ -114,7 +115,7 @@ void Upbp::trace_photons(const Scene& scene, uint64_t seed, uint64_t index, size
     if (stop.requested()) return;
     SampleCounters counters;
     Sampler sampler(scene.sampler(), hash_counters(seed, kLightStream));
-    PhotonRecorder recorder(scene, *weights_, leaves_, counters);
+    PhotonRecorder recorder(scene, *weights_, leaves_, scattering_.get(), counters);
     LightWalk<PhotonRecorder> walk(scene, path_, sampler, counters, recorder);
     for (size_t path = task * kGrain; path < std::min(paths, (task + 1) * kGrain); ++path) {
       sampler.start(path, index);

@@ -22,6 +22,7 @@ struct UpbpSettings {
   int beam_paths = 0;               ///< of these leave beams; 0: a pilot chooses with the techniques, else kBeamPaths
   size_t memory = size_t{1} << 30;  ///< for photons, bytes; about
   bool shows_techniques = false;
+  std::optional<RefractiveSettings> refraction;  ///< of single scattering; empty: by these techniques, too
 
   static constexpr int kBeamPaths = 5000;
   bool uses(Technique technique) const { return techniques[static_cast<size_t>(technique)]; }
@@ -77,6 +78,7 @@ class Upbp : public SplattingIntegrator {
   UpbpSettings own_;
   std::optional<size_t> most_paths_;
   std::optional<LightSources> sources_;
+  std::unique_ptr<const RefractiveScattering> scattering_;
   float first_radius_ = 0, first_surface_radius_ = 0;
   uint64_t pilot_seed_ = 0;
   double bytes_per_path_ = 0;

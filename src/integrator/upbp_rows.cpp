@@ -1,6 +1,7 @@
 #include <fmt/ranges.h>
 
 #include "integrator/bdpt.h"
+#include "integrator/refractive_gatherer.h"
 #include "integrator/upbp.h"
 
 namespace turbid {
@@ -45,7 +46,8 @@ std::vector<Parameter> parameters(const std::string& techniques) {
        {"memory", ParameterType::kInteger, "1024", "about the most memory for photons, MiB: fewer light paths above it",
         kAtLeastOne},
        {"visualize_techniques", ParameterType::kBoolean, "false",
-        "writes what each technique contributes as layers technique.NAME"}});
+        "writes what each technique contributes as layers technique.NAME"},
+       single_scattering_parameter()});
 }
 
 UpbpSettings settings_of(const Properties& properties) {
@@ -77,6 +79,7 @@ UpbpSettings settings_of(const Properties& properties) {
   own.beam_paths = count("beam_paths");
   own.memory = static_cast<size_t>(count("memory")) << 20;
   own.shows_techniques = properties.boolean("visualize_techniques");
+  own.refraction = refraction_settings(properties);
   return own;
 }
 

@@ -17,6 +17,7 @@ struct ShadingPlan {
   /// Lights shade whole ways of the sensor's walk at once (ray lights); volume_points are then for lights asked for
   /// directly.
   bool rays = false;
+  const RefractiveScattering* refraction = nullptr;  ///< finds some of the light; null: these lights bring all of it
 };
 
 /// Estimates of what one virtual light brings to places, with what stands between; black where nothing comes. For point
@@ -80,12 +81,17 @@ class VirtualLightGatherer : public ShadingRecorder {
 
   void begin() {
     ShadingRecorder::begin();
-    direct_.emplace(plan_.scene, plan_.path, ConnectionSettings{}, nullptr, sampler_, counters_);
+    direct_.emplace(plan_.scene, plan_.path, ConnectionSettings{}, plan_.refraction, sampler_, counters_);
     for (Spectrum& light : by_order_) light = Spectrum(0.0f);
   }
   /// What was found since, by class of order (kOrderClasses).
   Spectrum found(int order) const { return by_order_[order] + direct_->result().by_order[order]; }
 
+  void before_flight(const Medium& medium, const PathState& state, const Traveller& traveller) {
+    // Light that RefractiveScattering scatters where the walk would shade. Before the other walk's first x there is
+    // none, as this one finds it on the same flights; behind it orders are higher.
+    if (!scatters() && !expects_y()) direct_->before_flight(medium, state, traveller);
+  }
   void on_passage(const Ray& way, const Medium& medium, const PathState& state, const Traveller& traveller);
   void passed_medium(const Spectrum& proxy) { direct_->passed_medium(proxy); }
   void passed_surface(const Spectrum& through) { direct_->passed_surface(through); }

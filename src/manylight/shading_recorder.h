@@ -31,6 +31,9 @@ class ShadingRecorder : public WalkRecorder {
   bool goes_on() const { return !ended_; }
 
  protected:
+  bool scatters() const { return kind_ == Kind::kScatters; }
+  /// If the next vertex leaves a choice of direction it is a y.
+  bool expects_y() const { return open_; }
   void begin() {
     first_ = true;
     open_ = ended_ = false;

@@ -29,6 +29,10 @@ class Traveller {
   const Ray& ray() const { return ray_; }
   /// What fills the space here; null: vacuum, or media are ignored.
   const Medium* medium() const { return medium_; }
+  /// On the side of the surface where the traveller stands that the direction leads to. Not for scenes with priorities.
+  const Medium* medium_towards(const SurfaceEvent& event, const Vec3& direction) const {
+    return event.object.bounds_media ? event.object.medium_towards(event.point.ng, direction) : medium_;
+  }
   /// No straight line from here reaches a light (Surroundings::blind). Only inside a medium.
   bool blind() const { return surroundings_->blind; }
   /// The surface does not exist here (MediumStack::hides).

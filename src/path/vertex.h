@@ -13,6 +13,7 @@ struct Vertex {
   Vec3 given;           ///< unit, to where the walk comes from
   Spectrum throughput;  ///< PathState::throughput: all but the vertex's own scattering
   int depth = 0, order = 0;
+  bool bent = false;               ///< walks from a light: CountedLight::is_bent
   const Medium* medium = nullptr;  ///< on the side of `given`; null: vacuum
   const Object* object = nullptr;  ///< null: a collision
   SurfacePoint point;              ///< of surfaces only

@@ -15,6 +15,7 @@ struct PhotonPoint {
   /// Parts of StrategyWeights::beside_merge, which is near + power(pdf_back_w) * far.
   double near = 0, far = 0;
   int depth = 0, order = 0;  ///< edges and collisions with the point
+  bool bent = false;         ///< CountedLight::is_bent
 
   PhotonPoint(const Vec3& p, const Vec3& travel, const PathState& state, const StrategyWeights& weights,
               const StrategySums& sums)
@@ -39,6 +40,7 @@ struct PhotonBeam {
   Spectrum straight;         ///< ... and what it lets through in front of the flight
   uint32_t emission = 0;     ///< of the light path, see PhotonMap
   int depth = 0, order = 0;  ///< edges and collisions before the flight
+  bool bent = false;         ///< CountedLight::may_collide
 
   const Ray& ray() const { return segment.ray; }
 };

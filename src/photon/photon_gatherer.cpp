@@ -39,7 +39,8 @@ void PhotonGatherer::at_surface(const Vertex& vertex, ContributionSink& sink, Me
     const PhotonPoint& photon = map_.photons.surfaces[number];
     const int order = vertex.order + photon.order;
     if (!(length_squared(photon.position - vertex.position) < sqr(radii_.surface))) return;
-    if (dot(photon.ng, vertex.point.ng) < kSameSurface || !counts(vertex.depth + photon.depth, order)) return;
+    if (dot(photon.ng, vertex.point.ng) < kSameSurface || !counts(vertex.depth + photon.depth, order, photon.bent))
+      return;
     const Vec3 wi = -photon.direction;
     const Vertex::Scattering scattered = vertex.scatter(wi, TransportMode::kRadiance);
     if (scattered.value.is_black()) return;
@@ -69,7 +70,7 @@ void PhotonGatherer::points_at(const Vertex& vertex, ContributionSink& sink, Mer
     const PhotonPoint& photon = map_.photons.collisions[number];
     const int order = vertex.order - 1 + photon.order;
     if (!(length_squared(photon.position - vertex.position) < sqr(radius))) return;
-    if (photon.medium != &medium || !counts(vertex.depth + photon.depth, order)) return;
+    if (photon.medium != &medium || !counts(vertex.depth + photon.depth, order, photon.bent)) return;
     const float mu = dot(photon.direction, vertex.given);
     const float f = medium.phase().eval(mu);
     const Merges merges = merges_at(weights_, medium, mu);
@@ -93,7 +94,8 @@ void PhotonGatherer::beams_at(const Vertex& vertex, ContributionSink& sink, Merg
   map_.beams_around(vertex.position, [&](uint32_t number, float from, float to) {
     ++work.counters.beam_tests;
     const PhotonBeam& beam = map_.photons.beams[number];
-    if (beam.medium != medium || !counts(vertex.depth + beam.depth + 1, vertex.order + beam.order)) return;
+    const int order = vertex.order + beam.order;
+    if (beam.medium != medium || !counts(vertex.depth + beam.depth + 1, order, beam.bent)) return;
     const float t = nearest_within(beam.ray(), vertex.position, radius);
     if (t > 0 && t >= from && t < to) work.found.push_back({number, {0, t, 0}});
   });

@@ -2,6 +2,7 @@
 #include "path/contribution.h"
 #include "photon/beam_crossing.h"
 #include "photon/photon_map.h"
+#include "refraction/refractive_interfaces.h"
 
 namespace turbid {
 
@@ -77,8 +78,11 @@ class PhotonGatherer {
   bool gathers_along_flights() const { return radii_.point_beam > 0 || radii_.beam_beam > 0; }
 
  private:
-  /// Does a path of so many edges and collisions count? The collision where it is merged counts on one side only.
-  bool counts(int edges, int order) const { return edges <= path_.max_depth && path_.order_counts(order); }
+  /// Does a path of so many edges and collisions count, with light that says `bent`? The collision where it is merged
+  /// counts on one side only.
+  bool counts(int edges, int order, bool bent) const {
+    return edges <= path_.max_depth && path_.order_counts(order) && !counted_elsewhere(bent, order);
+  }
   void at_surface(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
   void points_at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
   void beams_at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
@@ -111,7 +115,7 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
       ++work.counters.point_tests;
       const PhotonPoint& photon = map_.photons.collisions[number];
       const int order = flight.order + photon.order;
-      if (photon.medium != &medium || !counts(sensor_depth + photon.depth, order)) return;
+      if (photon.medium != &medium || !counts(sensor_depth + photon.depth, order, photon.bent)) return;
       const float t = nearest_within(ray, photon.position, radii_.point_beam);
       if (!(t > 0)) return;
       const float mu = -dot(photon.direction, ray.direction);
@@ -131,7 +135,8 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
     map_.beams_along(ray, [&](uint32_t number, float from, float to) {
       ++work.counters.beam_tests;
       const PhotonBeam& beam = map_.photons.beams[number];
-      if (beam.medium != &medium || !counts(sensor_depth + beam.depth + 1, flight.order + beam.order + 1)) return;
+      const int order = flight.order + beam.order + 1;
+      if (beam.medium != &medium || !counts(sensor_depth + beam.depth + 1, order, beam.bent)) return;
       const auto crossing = find_crossing(ray, beam.ray(), radii_.beam_beam);
       if (crossing && crossing->on_second >= from && crossing->on_second < to)
         work.found.push_back({number, *crossing});

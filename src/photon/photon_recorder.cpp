@@ -6,6 +6,7 @@ namespace turbid {
 
 void PhotonRecorder::at_emitter(const Emission& emission, const Traveller& traveller) {
   LightRecorder::at_emitter(emission, traveller);
+  counted_.left(*emission.emitter);
   if (beams_) result_->emissions.push_back(emission);
 }
 
@@ -17,7 +18,8 @@ void PhotonRecorder::on_segment(const Ray& way, const Medium& medium, const Path
     if (segment.is_long && leg.collides) segment.ray.t_max = length_to_surface(scene_, way, medium, counters_);
     if (segment.ray.t_max > 0)
       result_->beams.push_back({segment, homogeneous, edge_, straight_,
-                                static_cast<uint32_t>(result_->emissions.size() - 1), state.depth, state.order});
+                                static_cast<uint32_t>(result_->emissions.size() - 1), state.depth, state.order,
+                                counted_.may_collide(medium)});
   }
   LightRecorder::on_segment(way, medium, state, leg);
 }
@@ -25,13 +27,24 @@ void PhotonRecorder::on_segment(const Ray& way, const Medium& medium, const Path
 void PhotonRecorder::at_surface(const SurfaceEvent& event, const PathState& state, const Traveller&) {
   current_ = arrive({event.point.p, Spectrum(1.0f), std::abs(dot(event.point.ng, event.given))}, state);
   if (!settings_.surfaces || !(event.object.bsdf->flags() & lobe::kSmooth)) return;
-  result_->surfaces.emplace_back(event.point.p, -event.given, state, weights_, current_).ng = event.point.ng;
+  PhotonPoint& photon = result_->surfaces.emplace_back(event.point.p, -event.given, state, weights_, current_);
+  photon.ng = event.point.ng;
+  photon.bent = counted_.is_bent();
+}
+
+void PhotonRecorder::left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen,
+                                  const PathState& state, const Traveller& traveller) {
+  LightRecorder::left_surface(event, sample, chosen, state, traveller);
+  counted_.left_surface(event, sample, traveller.medium_towards(event, chosen));
 }
 
 void PhotonRecorder::at_collision(const CollisionEvent& event, const PathState& state, const Traveller&) {
   current_ = arrive({event.position, event.medium.proxy_sigma_t(event.position)}, state);
+  counted_.collided(event.medium);
   if (!(event.medium.as_homogeneous() ? settings_.collisions : settings_.inhomogeneous)) return;
-  result_->collisions.emplace_back(event.position, event.direction, state, weights_, current_).medium = &event.medium;
+  PhotonPoint& photon = result_->collisions.emplace_back(event.position, event.direction, state, weights_, current_);
+  photon.medium = &event.medium;
+  photon.bent = counted_.is_bent();
 }
 
 }  // namespace turbid

@@ -1,5 +1,6 @@
 #pragma once
 #include "photon/photon_map.h"
+#include "refraction/refractive_scattering.h"
 
 namespace turbid {
 
@@ -15,9 +16,13 @@ struct PhotonSettings {
 /// Recorder of walks from lights that leaves photons.
 class PhotonRecorder : public LightRecorder {
  public:
+  /// `refraction`: counts some of the light; may be null.
   PhotonRecorder(const Scene& scene, const StrategyWeights& weights, const PhotonSettings& settings,
-                 SampleCounters& counters)
-      : LightRecorder(scene, weights), settings_(settings), counters_(counters) {}
+                 const RefractiveScattering* refraction, SampleCounters& counters)
+      : LightRecorder(scene, weights),
+        settings_(settings),
+        counted_(RefractiveScattering::counted_light(refraction)),
+        counters_(counters) {}
 
   /// The next path; `beams`: it leaves beams, where the settings ask for any.
   void begin(bool beams, Photons& result) {
@@ -29,9 +34,12 @@ class PhotonRecorder : public LightRecorder {
   void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg);
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller);
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller);
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
+                    const Traveller& traveller);
 
  private:
   PhotonSettings settings_;
+  CountedLight counted_;
   SampleCounters& counters_;
   Photons* result_ = nullptr;
   bool beams_ = false;

@@ -43,6 +43,13 @@ class RefractiveInterfaces {
   std::map<const Object*, size_t> index_;
 };
 
+/// Does refraction at this point of a surface count?
+inline bool bends_light(const RefractiveInterfaces& interfaces, const SurfaceEvent& event, const BsdfSample& sample) {
+  if (!(sample.flags & lobe::kTransmission)) return false;
+  const RefractiveInterface* found = interfaces.find(event.object);
+  return found && shades_with_blend(facet_of(*found->mesh, event.point.primitive), V2d(event.point.barycentric));
+}
+
 /// Recognises, while a walk from the sensor goes on, the paths that RefractiveScattering counts: the first collision V,
 /// then refraction at an interface, then a light; null surfaces anywhere. Whoever adds its light leaves these out.
 class CountedPath {
@@ -58,22 +65,55 @@ class CountedPath {
   }
   /// `around`: the medium on the side that the walk came from.
   void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Medium* around) {
-    refracted_ = at_collision_ && around == medium_ && (sample.flags & lobe::kTransmission) && counts(event);
+    refracted_ = at_collision_ && around == medium_ && bends_light(interfaces_, event, sample);
     at_collision_ = false;
   }
   /// The light that is met now, on a surface or at infinity, is counted elsewhere.
   bool is_counted(bool environment) const { return refracted_ && (environments_ || !environment); }
 
  private:
-  bool counts(const SurfaceEvent& event) const {
-    const RefractiveInterface* found = interfaces_.find(event.object);
-    return found && shades_with_blend(facet_of(*found->mesh, event.point.primitive), V2d(event.point.barycentric));
-  }
-
   const RefractiveInterfaces& interfaces_;
   const bool environments_;
   bool at_collision_ = false, refracted_ = false;
   const Medium* medium_ = nullptr;
 };
+
+/// The same for walks from a light: the light, refraction at an interface, then the first collision V. What follows
+/// belongs to a counted path if it does not collide again.
+class CountedLight {
+ public:
+  /// `interfaces` null: nothing is counted elsewhere.
+  CountedLight(const RefractiveInterfaces* interfaces, bool environments)
+      : interfaces_(interfaces), environments_(environments) {}
+
+  void left(const Emitter& emitter) {
+    const bool followed = interfaces_ && emitter.can_be_aimed_at() && (environments_ || !emitter.is_environment());
+    state_ = followed ? State::kStarted : State::kOther;
+  }
+  /// `beyond`: the medium on the side that the walk goes to.
+  void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Medium* beyond) {
+    if (state_ == State::kBent) return;
+    const bool refracts = state_ == State::kStarted && bends_light(*interfaces_, event, sample);
+    state_ = refracts ? State::kRefracted : State::kOther;
+    medium_ = beyond;
+  }
+  void collided(const Medium& medium) {
+    if (state_ != State::kBent) state_ = may_collide(medium) ? State::kBent : State::kOther;
+  }
+  /// The walk has come over P and V.
+  bool is_bent() const { return state_ == State::kBent; }
+  /// The walk has come over P, and a collision in the medium would be V.
+  bool may_collide(const Medium& medium) const { return state_ == State::kRefracted && medium_ == &medium; }
+
+ private:
+  enum class State { kOther, kStarted, kRefracted, kBent };
+  const RefractiveInterfaces* interfaces_;
+  bool environments_;
+  State state_ = State::kOther;
+  const Medium* medium_ = nullptr;
+};
+
+/// Is a path of so many collisions counted elsewhere, where its walk from the light says `bent`?
+inline bool counted_elsewhere(bool bent, int order) { return bent && order == 1; }
 
 }  // namespace turbid

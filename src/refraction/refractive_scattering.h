@@ -38,6 +38,11 @@ class RefractiveScattering {
 
   /// Recognises on a path from the sensor what gather() counts.
   CountedPath counted_path() const { return {interfaces_, settings_.environments}; }
+  /// The same on a path from a light; `scattering` may be null.
+  static CountedLight counted_light(const RefractiveScattering* scattering) {
+    if (!scattering) return {nullptr, false};
+    return {&scattering->interfaces_, scattering->settings_.environments};
+  }
 
   /// An estimate of the radiance that a single collision on the flight scatters to its origin. `flight`: through
   /// `medium`, up to the next surface. `throughput` as for pass_straight. Random numbers come from Sampler::aside.
