@@ -26,7 +26,7 @@ class CachePlacer::Recorder : public ShadingRecorder {
       make_collisions(way, medium, state, owner_.plan_.path.max_depth, one, sampler_,
                       [&](const CollisionEvent& event, const PathState& at) { record(Vertex(event, at), traveller); });
     } else if (kind_ == PlaceKind::kWay) {
-      Rng rng = sampler_.aside(way.origin, way.direction);
+      Rng rng = sampler_.aside(Purpose::kCachedWay, way.origin, way.direction);
       std::vector<LightLines::Request> all(weights_.size());
       for (size_t light = 0; light < all.size(); ++light) {
         const float u = rng.next_float();
@@ -46,7 +46,7 @@ class CachePlacer::Recorder : public ShadingRecorder {
  private:
   void record(const Vertex& vertex, const Traveller& traveller) {
     const Scatterer place(vertex, TransportMode::kRadiance);
-    Rng rng = sampler_.aside(vertex.position, vertex.given);
+    Rng rng = sampler_.aside(Purpose::kCachedPlace, vertex.position, vertex.given);
     for (size_t light = 0; light < weights_.size(); ++light)
       weights_[light] = lines_.to_place(place, light, rng, traveller).mean();
     finish({vertex.position, vertex.is_surface() ? place.normal() : Vec3(0), true});

@@ -99,7 +99,7 @@ void VirtualLightGatherer::ask_virtual_lights(const Vertex& vertex, const Travel
   if (lights_.empty() || vertex.throughput.is_black()) return;
   const Scatterer place(vertex, TransportMode::kRadiance);
   if (chooser_) chooser_->move_to(place);
-  choose_lights(place.order(), sampler_.aside(vertex.position, vertex.given),
+  choose_lights(place.order(), sampler_.aside(Purpose::kLightsOfPlace, vertex.position, vertex.given),
                 [&](size_t light, float factor, Rng& rng) {
                   add(place.order() + lines_.order(light), lines_.to_place(place, light, rng, traveller) * factor);
                 });
@@ -110,7 +110,7 @@ void VirtualLightGatherer::ask_along(const CollisionSegment& way, const Travelle
   if (chooser_) chooser_->move_along(way.way());
   requests_.clear();
   factors_.clear();
-  choose_lights(way.order(), sampler_.aside(way.way().origin, way.way().direction),
+  choose_lights(way.order(), sampler_.aside(Purpose::kLightsOfWay, way.way().origin, way.way().direction),
                 [&](size_t light, float factor, Rng& rng) {
                   const float u = rng.next_float();
                   requests_.push_back({light, {u, rng.next_float()}});
