@@ -142,16 +142,17 @@ std::unique_ptr<LightSampler> ManyLights::make_caches(const Scene& scene, uint64
   std::mutex mutex;
   // A right angle between normals counts as much as a fiftieth of the scene, one between ways as much as all of it.
   const std::array<float, kPlaceKinds> spacing = {0.02f * scene.radius(), 0, scene.radius()};
-  auto result = std::make_unique<ImportanceCache>(caches, set_->lights.size(), spacing,
-                                                  [&](PlaceKind kind, size_t number, std::span<float> weights) {
-                                                    if (stop.requested()) return ImportanceCache::Record{};
-                                                    SampleCounters counters;
-                                                    const auto record = placer.record(kind, number, weights, counters);
-                                                    const std::lock_guard lock(mutex);
-                                                    cache_connections_ += std::exchange(counters.connections, 0);
-                                                    prepared_.add(counters);
-                                                    return record;
-                                                  });
+  const auto record = [&](PlaceKind kind, size_t number, std::span<float> weights) {
+    if (stop.requested()) return ImportanceCache::Record{};
+    SampleCounters counters;
+    const auto point = placer.record(kind, number, weights, counters);
+    const std::lock_guard lock(mutex);
+    cache_connections_ += std::exchange(counters.connections, 0);
+    prepared_.add(counters);
+    return point;
+  };
+  auto result = std::make_unique<ImportanceCache>(caches, set_->lights.size(), spacing, record,
+                                                  std::make_unique<NearLights>(set_->lights, plan_->lines));
   if (result->is_cut() && caches_made_ == 0)
     log_warning(fmt::format("{} cache points for {} lights fit into the memory they may take, fewer than asked for",
                             result->points(), set_->lights.size()));

@@ -77,7 +77,7 @@ void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, cons
 }
 
 template <class Ask>
-void VirtualLightGatherer::choose_lights(int order, Rng rng, const Ask& ask) {
+void VirtualLightGatherer::choose_lights(int order, bool once, Rng rng, const Ask& ask) {
   const auto choose = [&](size_t light, double factor) {
     Rng own = lights_.rays().empty() ? rng : Rng(hash_counters(rng.next_u32(), rng.next_u32()));
     if (!plan_.path.order_counts(order + lines_.order(light))) return;
@@ -89,9 +89,18 @@ void VirtualLightGatherer::choose_lights(int order, Rng rng, const Ask& ask) {
     return;
   }
   const double samples = plan_.light_samples;
+  draws_.clear();
   for (int i = 0; i < plan_.light_samples; ++i) {
     const auto choice = chooser_->sample((i + rng.next_double()) / samples);
-    if (choice) choose(choice->light, 1 / (choice->prob * samples));
+    if (choice) draws_.push_back({choice->light, 1 / (choice->prob * samples)});
+  }
+  // In the order of the lights: neighbours there stand side by side, and so run the lines to them.
+  std::sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) { return a.light < b.light; });
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    double factor = draws_[i].factor;
+    if (once && draws_[i].light < lights_.points().size())
+      while (i + 1 < draws_.size() && draws_[i + 1].light == draws_[i].light) factor += draws_[++i].factor;
+    choose(draws_[i].light, factor);
   }
 }
 
@@ -99,7 +108,7 @@ void VirtualLightGatherer::ask_virtual_lights(const Vertex& vertex, const Travel
   if (lights_.empty() || vertex.throughput.is_black()) return;
   const Scatterer place(vertex, TransportMode::kRadiance);
   if (chooser_) chooser_->move_to(place);
-  choose_lights(place.order(), sampler_.aside(Purpose::kLightsOfPlace, vertex.position, vertex.given),
+  choose_lights(place.order(), true, sampler_.aside(Purpose::kLightsOfPlace, vertex.position, vertex.given),
                 [&](size_t light, float factor, Rng& rng) {
                   add(place.order() + lines_.order(light), lines_.to_place(place, light, rng, traveller) * factor);
                 });
@@ -110,7 +119,7 @@ void VirtualLightGatherer::ask_along(const CollisionSegment& way, const Travelle
   if (chooser_) chooser_->move_along(way.way());
   requests_.clear();
   factors_.clear();
-  choose_lights(way.order(), sampler_.aside(Purpose::kLightsOfWay, way.way().origin, way.way().direction),
+  choose_lights(way.order(), false, sampler_.aside(Purpose::kLightsOfWay, way.way().origin, way.way().direction),
                 [&](size_t light, float factor, Rng& rng) {
                   const float u = rng.next_float();
                   requests_.push_back({light, {u, rng.next_float()}});

@@ -123,9 +123,10 @@ class VirtualLightGatherer : public ShadingRecorder {
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
   void ask_along(const CollisionSegment& way, const Traveller& traveller);
   /// Calls ask(light, factor, rng) for all lights, or for those that the chooser draws. The numbers of each are its
-  /// own, so that it changes nothing else whether it counts.
+  /// own, so that it changes nothing else whether it counts. `once`: what a point light brings has nothing random, so
+  /// that one which is drawn more often is asked once.
   template <class Ask>
-  void choose_lights(int order, Rng rng, const Ask& ask);
+  void choose_lights(int order, bool once, Rng rng, const Ask& ask);
   void add(int order, const Spectrum& value) { by_order_[std::min(order, kOrderClasses - 1)] += value; }
 
   const ShadingPlan& plan_;
@@ -137,6 +138,11 @@ class VirtualLightGatherer : public ShadingRecorder {
   std::optional<LightGatherer> direct_;
   std::vector<LightLines::Request> requests_;
   std::vector<float> factors_;
+  struct Draw {
+    size_t light;
+    double factor;
+  };
+  std::vector<Draw> draws_;
   Spectrum by_order_[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
 };
 

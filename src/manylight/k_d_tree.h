@@ -9,6 +9,37 @@
 
 namespace turbid {
 
+/// Orders the range so that its first half lies before the rest along the axis where it is widest; returns the axis.
+template <size_t D>
+size_t halve(const std::vector<std::array<float, D>>& points, std::span<uint32_t> range) {
+  std::array<float, D> low = points[range.front()], high = low;
+  for (const uint32_t i : range)
+    for (size_t d = 0; d < D; ++d) {
+      low[d] = std::min(low[d], points[i][d]);
+      high[d] = std::max(high[d], points[i][d]);
+    }
+  size_t axis = 0;
+  for (size_t d = 1; d < D; ++d)
+    if (high[d] - low[d] > high[axis] - low[axis]) axis = d;
+  const auto middle = range.begin() + static_cast<std::ptrdiff_t>(range.size() / 2);
+  std::nth_element(range.begin(), middle, range.end(), [&](uint32_t a, uint32_t b) {
+    return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b;
+  });
+  return axis;
+}
+
+/// Cuts the range into groups of at most `most` points that lie together, and calls visit(group) for each.
+template <size_t D, class Visit>
+void for_groups(const std::vector<std::array<float, D>>& points, std::span<uint32_t> range, size_t most,
+                const Visit& visit) {
+  if (range.empty()) return;
+  if (range.size() <= std::max<size_t>(most, 1)) return visit(range);
+  halve(points, range);
+  const size_t half = range.size() / 2;
+  for_groups(points, range.subspan(0, half), most, visit);
+  for_groups(points, range.subspan(half), most, visit);
+}
+
 /// Finds the points nearest to a place, in D dimensions. Built once; queries are const and thread-safe.
 template <size_t D>
 class KdTree {
@@ -40,21 +71,8 @@ class KdTree {
   // The middle of a range is its node; what lies before it along the node's axis stands before it.
   void build(size_t begin, size_t end) {
     if (end - begin < 2) return;
-    Point low = points_[order_[begin]], high = low;
-    for (size_t i = begin; i < end; ++i)
-      for (size_t d = 0; d < D; ++d) {
-        low[d] = std::min(low[d], points_[order_[i]][d]);
-        high[d] = std::max(high[d], points_[order_[i]][d]);
-      }
-    size_t axis = 0;
-    for (size_t d = 1; d < D; ++d)
-      if (high[d] - low[d] > high[axis] - low[axis]) axis = d;
     const size_t middle = (begin + end) / 2;
-    const auto at = [this](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
-      return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
-    });
-    axes_[middle] = static_cast<uint8_t>(axis);
+    axes_[middle] = static_cast<uint8_t>(halve(points_, std::span(order_).subspan(begin, end - begin)));
     build(begin, middle);
     build(middle + 1, end);
   }

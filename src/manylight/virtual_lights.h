@@ -27,8 +27,9 @@ struct VirtualLightPlan {
 /// there.
 class VirtualLights {
  public:
-  /// Traces `paths` light paths; `set` tells one set of lights from another. The lights come in the order of the paths,
-  /// whatever the threads do.
+  /// Traces `paths` light paths; `set` tells one set of lights from another. The order of the lights
+  /// depends on nothing else; neighbours in it stand near each other, so that samples which are stratified over it are
+  /// so in space, and lines to lights in turn run side by side.
   VirtualLights(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCounters& counters);
   VirtualLights(VirtualLights&&) = default;
   VirtualLights& operator=(VirtualLights&&) = default;
