@@ -125,7 +125,7 @@ std::unique_ptr<LightSampler> ManyLights::make_sampler(const Scene& scene, uint6
     case ManyLightsSettings::Sampler::kUnshadowed:
       return std::make_unique<UnshadowedLightSampler>(lights, plan_->lines);
     case ManyLightsSettings::Sampler::kLightTree:
-      return std::make_unique<LightTree>(lights);
+      return std::make_unique<LightTree>(lights, plan_->lines);
     default:
       return make_caches(scene, seed, set, stop);
   }

@@ -4,14 +4,18 @@ namespace turbid {
 
 // --- lines -----------------------------------------------------------------------------------------------------------
 
+Spectrum LightLines::through(const Scatterer& place, const SurfaceEvent* surface, const Scatterer& light,
+                             const Spectrum& value, const Traveller& traveller) const {
+  const Vec3 wi = normalize(light.position() - place.position());
+  const Ray line = line_between(place.leave(wi), light.leave(-wi));
+  return value * traveller.look_along(line, Spectrum(1.0f), surface).transmittance;
+}
+
 Spectrum LightLines::shadowed(const Scatterer& place, const Scatterer& light, const Traveller& traveller) const {
   const Spectrum value = unshadowed(place, light, settings_);
   if (value.is_black()) return value;
-  const Vec3 wi = normalize(light.position() - place.position());
-  const Ray line = line_between(place.leave(wi), light.leave(-wi));
-  if (!place.is_surface()) return value * traveller.look_along(line, Spectrum(1.0f)).transmittance;
-  const SurfaceEvent surface = *place.vertex().surface_event();
-  return value * traveller.look_along(line, Spectrum(1.0f), &surface).transmittance;
+  const auto surface = place.is_surface() ? place.vertex().surface_event() : std::nullopt;
+  return through(place, surface ? &*surface : nullptr, light, value, traveller);
 }
 
 Spectrum LightLines::to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const {
@@ -88,19 +92,16 @@ void VirtualLightGatherer::choose_lights(int order, bool once, Rng rng, const As
     for (size_t light = 0; light < lights_.size(); ++light) choose(light, 1);
     return;
   }
+  chooser_->draw(plan_.light_samples, Rng(hash_counters(rng.next_u32(), rng.next_u32())), draws_);
   const double samples = plan_.light_samples;
-  draws_.clear();
-  for (int i = 0; i < plan_.light_samples; ++i) {
-    const auto choice = chooser_->sample((i + rng.next_double()) / samples);
-    if (choice) draws_.push_back({choice->light, 1 / (choice->prob * samples)});
-  }
-  // In the order of the lights: neighbours there stand side by side, and so run the lines to them.
-  std::sort(draws_.begin(), draws_.end(), [](const Draw& a, const Draw& b) { return a.light < b.light; });
+  constexpr size_t kAhead = 4;  // lights lie anywhere in memory
   for (size_t i = 0; i < draws_.size(); ++i) {
-    double factor = draws_[i].factor;
-    if (once && draws_[i].light < lights_.points().size())
-      while (i + 1 < draws_.size() && draws_[i + 1].light == draws_[i].light) factor += draws_[++i].factor;
-    choose(draws_[i].light, factor);
+    if (i + kAhead < draws_.size()) lights_.prefetch(draws_[i + kAhead].light);
+    const auto& [light, times, prob] = draws_[i];
+    if (once && light < lights_.points().size())
+      choose(light, times / (prob * samples));
+    else
+      for (uint32_t k = 0; k < times; ++k) choose(light, 1 / (prob * samples));
   }
 }
 
@@ -108,10 +109,25 @@ void VirtualLightGatherer::ask_virtual_lights(const Vertex& vertex, const Travel
   if (lights_.empty() || vertex.throughput.is_black()) return;
   const Scatterer place(vertex, TransportMode::kRadiance);
   if (chooser_) chooser_->move_to(place);
-  choose_lights(place.order(), true, sampler_.aside(Purpose::kLightsOfPlace, vertex.position, vertex.given),
-                [&](size_t light, float factor, Rng& rng) {
-                  add(place.order() + lines_.order(light), lines_.to_place(place, light, rng, traveller) * factor);
-                });
+  // First what lights would bring, then what stands between: so the processor waits for memory once for many.
+  waiting_.clear();
+  const Rng rng = sampler_.aside(Purpose::kLightsOfPlace, vertex.position, vertex.given);
+  choose_lights(place.order(), true, rng, [&](size_t light, float factor, Rng& own) {
+    if (light >= lights_.points().size())
+      return add(place.order() + lines_.order(light), lines_.to_place(place, light, own, traveller) * factor);
+    const Scatterer& point = lights_.points()[light];
+    const Spectrum value = unshadowed(place, point, plan_.lines) * factor;
+    if (value.is_black()) return;
+    if (point.is_surface()) __builtin_prefetch(&point.vertex().point);  // where the line will end
+    waiting_.push_back({&point, value});
+  });
+  cast_lines(place, traveller);
+}
+
+void VirtualLightGatherer::cast_lines(const Scatterer& place, const Traveller& traveller) {
+  const auto surface = place.is_surface() ? place.vertex().surface_event() : std::nullopt;
+  for (const auto& [light, value] : waiting_)
+    add(place.order() + light->order(), lines_.through(place, surface ? &*surface : nullptr, *light, value, traveller));
 }
 
 void VirtualLightGatherer::ask_along(const CollisionSegment& way, const Traveller& traveller) {

@@ -28,6 +28,9 @@ class LightLines {
 
   /// `traveller` stands at the place.
   Spectrum to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const;
+  /// What a point light brings that would bring `value` if nothing stood between. `surface`: the place, if it is one.
+  Spectrum through(const Scatterer& place, const SurfaceEvent* surface, const Scatterer& light, const Spectrum& value,
+                   const Traveller& traveller) const;
   /// A light, and the numbers that places are drawn from for it.
   struct Request {
     size_t light;
@@ -121,10 +124,12 @@ class VirtualLightGatherer : public ShadingRecorder {
     ask_virtual_lights(Vertex(event, state), traveller);
   }
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
+  /// Casts the lines of waiting_ from the place.
+  void cast_lines(const Scatterer& place, const Traveller& traveller);
   void ask_along(const CollisionSegment& way, const Traveller& traveller);
   /// Calls ask(light, factor, rng) for all lights, or for those that the chooser draws. The numbers of each are its
   /// own, so that it changes nothing else whether it counts. `once`: what a point light brings has nothing random, so
-  /// that one which is drawn more often is asked once.
+  /// that one which was drawn more often is asked once.
   template <class Ask>
   void choose_lights(int order, bool once, Rng rng, const Ask& ask);
   void add(int order, const Spectrum& value) { by_order_[std::min(order, kOrderClasses - 1)] += value; }
@@ -138,11 +143,12 @@ class VirtualLightGatherer : public ShadingRecorder {
   std::optional<LightGatherer> direct_;
   std::vector<LightLines::Request> requests_;
   std::vector<float> factors_;
-  struct Draw {
-    size_t light;
-    double factor;
+  std::vector<LightSampler::Chooser::Draw> draws_;
+  struct Line {
+    const Scatterer* light;
+    Spectrum value;  ///< if nothing stands between
   };
-  std::vector<Draw> draws_;
+  std::vector<Line> waiting_;
   Spectrum by_order_[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
 };
 

@@ -92,7 +92,13 @@ LightChoice CompactDistributions::sample(size_t row, double u) const {
   // u has 53 bits, totals have less than 2^(32 + log2(lights)): rounding moves no probability that could be seen.
   const uint64_t at = std::min(static_cast<uint64_t>(u * static_cast<double>(totals_[row])), totals_[row] - 1);
   const uint64_t* const sums = sums_.data() + row * blocks_;
-  const auto block = static_cast<size_t>(std::upper_bound(sums, sums + blocks_, at) - sums);
+  // std::upper_bound without branches, which would be guessed wrong half of the time.
+  size_t block = 0;
+  for (size_t left = blocks_; left > 1;) {
+    const size_t half = left / 2;
+    block += sums[block + half - 1] <= at ? half : 0;
+    left -= half;
+  }
   uint64_t sum = block > 0 ? sums[block - 1] : 0;
   size_t light = block * kBlock;
   while ((sum += kValues[code(row, light)]) <= at) ++light;

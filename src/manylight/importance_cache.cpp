@@ -133,15 +133,8 @@ class ImportanceCache::MixtureChooser final : public LightSampler::Chooser {
 
   std::optional<LightChoice> sample(double u) const override {
     if (cache_.lights_ == 0) return std::nullopt;
-    for (size_t m = 0; m < mixture_.count; ++m) {
-      const double weight = mixture_.weights[m];
-      if (u < weight) return choice(cache_.rows_.sample(mixture_.rows[m], std::min(u / weight, kBelowOne)).light);
-      u -= weight;
-    }
-    if (u < near_share_) return choice(near_.sample(std::min(u / near_share_, kBelowOne)));
-    u -= near_share_;
-    const double lights = static_cast<double>(cache_.lights_);
-    return choice(static_cast<size_t>(std::clamp(u / mixture_.uniform, 0.0, kBelowOne) * lights));
+    const size_t light = light_at(u);
+    return LightChoice{light, prob(light)};
   }
 
   double prob(size_t light) const override {
@@ -153,6 +146,12 @@ class ImportanceCache::MixtureChooser final : public LightSampler::Chooser {
   }
 
  private:
+  std::optional<LightChoice> sample_light(double u) const override {
+    if (cache_.lights_ == 0) return std::nullopt;
+    return LightChoice{light_at(u), 0};
+  }
+  bool knows_prob_when_drawn() const override { return false; }
+
   /// `cached`: what the nearest points say; from now on its weights add up to 1 with all other shares.
   void mix(const Mixture& cached, double uniform) {
     near_share_ = near_.is_empty() ? 0 : cache_.shares_.near;
@@ -163,9 +162,17 @@ class ImportanceCache::MixtureChooser final : public LightSampler::Chooser {
   }
 
   static constexpr double kBelowOne = 0x1.fffffffffffffp-1;
-  LightChoice choice(size_t light) const {
-    light = std::min(light, cache_.lights_ - 1);
-    return {light, prob(light)};
+  size_t light_at(double u) const {
+    for (size_t m = 0; m < mixture_.count; ++m) {
+      const double weight = mixture_.weights[m];
+      if (u < weight) return cache_.rows_.sample(mixture_.rows[m], std::min(u / weight, kBelowOne)).light;
+      u -= weight;
+    }
+    if (u < near_share_) return near_.sample(std::min(u / near_share_, kBelowOne));
+    u -= near_share_;
+    const double lights = static_cast<double>(cache_.lights_);
+    const double at = std::clamp(u / mixture_.uniform, 0.0, kBelowOne) * lights;
+    return std::min(static_cast<size_t>(at), cache_.lights_ - 1);
   }
 
   const ImportanceCache& cache_;

@@ -55,6 +55,11 @@ class KdTree {
     std::iota(order_.begin(), order_.end(), 0u);
     axes_.resize(points_.size());
     build(0, points_.size());
+    // In the tree's order, so that neighbours share lines of memory.
+    std::vector<Point> ordered;
+    ordered.reserve(points_.size());
+    for (const uint32_t i : order_) ordered.push_back(points_[i]);
+    points_ = std::move(ordered);
   }
 
   size_t size() const { return points_.size(); }
@@ -68,9 +73,11 @@ class KdTree {
   }
 
  private:
+  static constexpr size_t kLeaf = 8;  ///< points that are asked one by one
+
   // The middle of a range is its node; what lies before it along the node's axis stands before it.
   void build(size_t begin, size_t end) {
-    if (end - begin < 2) return;
+    if (end - begin <= kLeaf) return;
     const size_t middle = (begin + end) / 2;
     axes_[middle] = static_cast<uint8_t>(halve(points_, std::span(order_).subspan(begin, end - begin)));
     build(begin, middle);
@@ -78,18 +85,26 @@ class KdTree {
   }
 
   void search(const Point& place, size_t begin, size_t end, std::span<Neighbour> found, size_t& count) const {
-    if (begin == end || found.empty()) return;
+    if (found.empty()) return;
+    if (end - begin <= kLeaf) {
+      for (size_t i = begin; i < end; ++i) insert({order_[i], distance2_to(place, i)}, found, count);
+      return;
+    }
     const size_t middle = (begin + end) / 2;
-    const Point& node = points_[order_[middle]];
+    const Point& node = points_[middle];
     const size_t axis = axes_[middle];
     const float beyond = place[axis] - node[axis];
     const bool first_half = beyond < 0;
     first_half ? search(place, begin, middle, found, count) : search(place, middle + 1, end, found, count);
-    float distance2 = 0;
-    for (size_t d = 0; d < D; ++d) distance2 += (place[d] - node[d]) * (place[d] - node[d]);
-    insert({order_[middle], distance2}, found, count);
+    insert({order_[middle], distance2_to(place, middle)}, found, count);
     if (count < found.size() || beyond * beyond < found[count - 1].distance2)
       first_half ? search(place, middle + 1, end, found, count) : search(place, begin, middle, found, count);
+  }
+
+  float distance2_to(const Point& place, size_t i) const {
+    float distance2 = 0;
+    for (size_t d = 0; d < D; ++d) distance2 += (place[d] - points_[i][d]) * (place[d] - points_[i][d]);
+    return distance2;
   }
 
   static void insert(const Neighbour& neighbour, std::span<Neighbour> found, size_t& count) {

@@ -29,8 +29,8 @@ NearLights::Choice::Choice(const NearLights& near, const Scatterer& place) {
     probs_[count_++] = brings;
     sum += brings;
   }
-  if (!std::isfinite(sum)) count_ = 0;
-  for (size_t i = 0; i < kCount; ++i) probs_[i] = i < count_ ? probs_[i] / sum : 0;
+  if (!std::isfinite(sum)) *this = {};
+  for (size_t i = 0; i < count_; ++i) probs_[i] /= sum;
 }
 
 }  // namespace turbid

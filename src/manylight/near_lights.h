@@ -30,15 +30,21 @@ class NearLights {
       return lights_[i];
     }
     double prob(size_t light) const {
-      double prob = 0;
-      for (size_t i = 0; i < kCount; ++i) prob += lights_[i] == light ? probs_[i] : 0;
-      return prob;
+      size_t found = kCount;
+      for (size_t i = 0; i < kCount; ++i) found = lights_[i] == light ? i : found;
+      return probs_[found];
     }
 
    private:
     size_t count_ = 0;
-    std::array<uint32_t, kCount> lights_{};
-    std::array<double, kCount> probs_{};
+    std::array<uint32_t, kCount> lights_ = filled(~uint32_t{0});
+    std::array<double, kCount + 1> probs_{};  ///< the last: of any other light
+
+    static constexpr std::array<uint32_t, kCount> filled(uint32_t light) {
+      std::array<uint32_t, kCount> all{};
+      all.fill(light);
+      return all;
+    }
   };
 
  private:

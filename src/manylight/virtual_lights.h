@@ -38,6 +38,13 @@ class VirtualLights {
   const std::vector<CollisionSegment>& rays() const { return rays_; }
   size_t size() const { return points_.size() + rays_.size(); }
   bool empty() const { return size() == 0; }
+  /// The light will be asked soon.
+  void prefetch(size_t light) const {
+    const void* const at = light < points_.size() ? static_cast<const void*>(&points_[light])
+                                                  : static_cast<const void*>(&rays_[light - points_.size()]);
+    __builtin_prefetch(at);
+    __builtin_prefetch(static_cast<const char*>(at) + 64);
+  }
 
  private:
   std::vector<Vertex> vertices_;
