@@ -94,12 +94,7 @@ TEST_P(ManyLightsAgreementEverywhere, WithVolpath) {
 }
 
 INSTANTIATE_TEST_SUITE_P(SlowScenes, ManyLightsAgreementEverywhere, ::testing::ValuesIn(suite()),
-                         [](const auto& instance) {
-                           std::string name;
-                           for (const char c : instance.param.name)
-                             name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-                           return name;
-                         });
+                         [](const auto& instance) { return test_name(instance.param.name); });
 
 // --- ways of choosing lights ---------------------------------------------------------------------------------------
 
@@ -138,11 +133,17 @@ TEST(ManyLightsSamplers, MakeThePictureOfAllLights) {
 
 TEST(ManyLightsSamplers, NoticeAnError) { expect_all_lights("lamp in fog, any length", kWays.back(), 8, 1, 1.05); }
 
-TEST(SlowManyLightsSamplers, MakeThePictureOfAllLights) {
-  for (const char* scene : {"lamp in fog, any length", "coarse mesh, rough metal", "several media in turn",
-                            "rough glass with murk", "caustic into fog", "priorities and a world medium"})
-    for (const std::string& way : kWays) expect_all_lights(scene, way, 64, 0.01);
+class ManyLightsSamplersEverywhere : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ManyLightsSamplersEverywhere, MakeThePictureOfAllLights) {
+  for (const std::string& way : kWays) expect_all_lights(GetParam(), way, 32, 0.015);
 }
+
+INSTANTIATE_TEST_SUITE_P(SlowScenes, ManyLightsSamplersEverywhere,
+                         ::testing::Values("lamp in fog, any length", "coarse mesh, rough metal",
+                                           "several media in turn", "rough glass with murk", "caustic into fog",
+                                           "priorities and a world medium"),
+                         [](const auto& instance) { return test_name(instance.param); });
 
 // --- the pass structure ---------------------------------------------------------------------------------------------
 
