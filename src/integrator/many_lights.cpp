@@ -91,7 +91,8 @@ std::unique_ptr<SplattingIntegrator::Worker> ManyLights::make_worker(const Scene
 void ManyLights::prepare_workers(const Scene& scene) {
   sources_.emplace(scene, true);
   own_.lines.max_depth = path_.max_depth;
-  plan_.emplace(ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.rays});
+  plan_.emplace(
+      ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.direct_samples, own_.rays});
   set_.reset();
   paths_ = 0;
 }

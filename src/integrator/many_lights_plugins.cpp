@@ -36,6 +36,7 @@ std::vector<Parameter> parameters(bool rays) {
         kAtLeastOne},
        {"light_samples", ParameterType::kInteger, "8", "virtual lights asked for at each place that is shaded",
         kAtLeastOne},
+       {"direct_samples", ParameterType::kInteger, "4", "lights asked for at each place that is shaded", kAtLeastOne},
        {"volume_points", ParameterType::kInteger, "4",
         rays ? "places on each way through a medium where lights are asked for directly"
              : "places that are shaded on each way through a medium",
@@ -75,6 +76,7 @@ ManyLightsSettings settings_of(const Properties& properties, bool rays) {
   own.lights = static_cast<size_t>(count("lights"));
   own.reuse = count("reuse");
   own.light_samples = count("light_samples");
+  own.direct_samples = count("direct_samples");
   own.volume_points = {count("volume_points"), properties.string("volume_sampling") == "transmittance"};
   const auto nearest = static_cast<size_t>(count("nearest"));
   own.caches = {

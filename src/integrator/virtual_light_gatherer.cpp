@@ -70,7 +70,7 @@ void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, cons
   make_collisions(way, medium, state, plan_.path.max_depth, plan_.volume_points, sampler_,
                   [&](const CollisionEvent& event, const PathState& at) {
                     if (plan_.rays)
-                      direct_->at_collision(event, at, traveller);
+                      ask_lights(event, at, traveller);
                     else
                       shade(event, at, traveller);
                   });

@@ -13,7 +13,8 @@ struct ShadingPlan {
   const PathSettings& path;
   LineSettings lines;
   VolumePoints volume_points;
-  int light_samples = 8;  ///< lights asked for at each place
+  int light_samples = 8;   ///< virtual lights asked for at each place
+  int direct_samples = 4;  ///< the same of lights
   /// Lights shade whole ways of the sensor's walk at once (ray lights); volume_points are then for lights asked for
   /// directly.
   bool rays = false;
@@ -102,7 +103,7 @@ class VirtualLightGatherer : public ShadingRecorder {
   }
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
     if (!shades() || !(event.object.bsdf->flags() & lobe::kSmooth)) return;
-    direct_->at_surface(event, state, traveller);
+    ask_lights(state, [&](const PathState& part) { direct_->at_surface(event, part, traveller); });
     ask_virtual_lights(Vertex(event, state, traveller.medium()), traveller);
   }
   void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
@@ -120,8 +121,17 @@ class VirtualLightGatherer : public ShadingRecorder {
 
  private:
   void shade(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-    direct_->at_collision(event, state, traveller);
+    ask_lights(event, state, traveller);
     ask_virtual_lights(Vertex(event, state), traveller);
+  }
+  void ask_lights(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+    ask_lights(state, [&](const PathState& part) { direct_->at_collision(event, part, traveller); });
+  }
+  /// Next-event estimation several times, each for a part of the path's throughput.
+  template <class Ask>
+  void ask_lights(const PathState& state, const Ask& ask) {
+    const PathState part{state.throughput / static_cast<float>(plan_.direct_samples), state.depth, state.order};
+    for (int i = 0; i < plan_.direct_samples; ++i) ask(part);
   }
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
   /// Casts the lines of waiting_ from the place.
