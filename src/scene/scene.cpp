@@ -10,7 +10,8 @@ namespace {
 
 /// Lights at infinity and lights in the scene share the choice evenly: the power of a sky is that of a disk around the
 /// whole scene and says nothing about what reaches any one place. Within each group power decides, but no light gets
-/// less than half of the average: lamps that are weak beside a sun are bright next to them, and white specks if seldom asked.
+/// less than half of the average: lamps that are weak beside a sun are bright next to them, and white specks if seldom
+/// asked.
 DiscreteDistribution distribution_of_choice(const std::vector<const Emitter*>& emitters) {
   constexpr float kLeastShare = 0.5f;
   float sums[2] = {}, counts[2] = {};
