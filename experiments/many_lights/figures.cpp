@@ -40,9 +40,9 @@ class Comparison {
   Comparison(const Options& options, const Setting& setting)
       : options_(options), setting_(setting), stage_(options.scenes + "/" + setting.scene, definitions(options)) {
     const auto scaled = [&](int n) { return static_cast<int>(n * options.scale); };
-    common_ = fmt::format("vpl,lights={},reuse=1000000,volume_points={},surface_caches={},volume_caches={}",
-                          scaled(setting.lights), options.volume_points, scaled(setting.caches) / 2,
-                          scaled(setting.caches) / 2);
+    common_ = fmt::format(
+        "vpl,lights={},reuse=1000000,direct_samples=1,volume_points={},surface_caches={},volume_caches={}",
+        scaled(setting.lights), options.volume_points, scaled(setting.caches) / 2, scaled(setting.caches) / 2);
     reference_ = stage_.render(common_ + ",light_sampler=all", 1, options.seed);
     mean_ = mean_of(reference_.image);
   }

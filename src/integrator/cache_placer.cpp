@@ -74,7 +74,7 @@ class CachePlacer::Recorder : public ShadingRecorder {
     for (size_t light = 0; light < points; ++light)
       weights_[light] = unshadowed(place, owner_.lights_.points()[light], owner_.plan_.lines).mean();
     // Whether there is a shadow is asked only of lights that matter; the weak ones are chosen as if half were visible.
-    constexpr float kWeakShare = 0.05f, kHalf = 0.5f;
+    constexpr float kWeakShare = 0.1f, kHalf = 0.5f;
     const float least = weight_below_which(kWeakShare, weights_.first(points));
     for (size_t light = 0; light < weights_.size(); ++light) {
       if (light < points && weights_[light] < least)

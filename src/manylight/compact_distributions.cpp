@@ -101,6 +101,13 @@ LightChoice CompactDistributions::sample(size_t row, double u) const {
   }
   uint64_t sum = block > 0 ? sums[block - 1] : 0;
   size_t light = block * kBlock;
+  // Four at a time while none of them is it.
+  for (const size_t end = std::min(light + kBlock, lights_); light + 4 <= end; light += 4) {
+    const uint8_t* const codes = codes_.data() + row * lights_ + light;
+    const uint64_t four = (kValues[codes[0]] + kValues[codes[1]]) + (kValues[codes[2]] + kValues[codes[3]]);
+    if (sum + four > at) break;
+    sum += four;
+  }
   while ((sum += kValues[code(row, light)]) <= at) ++light;
   return {light, prob(row, light)};
 }
