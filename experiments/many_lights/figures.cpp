@@ -21,6 +21,7 @@ struct Setting {
 struct Options {
   std::string scenes = "scenes";
   std::vector<int> figures = {1, 5, 6};
+  std::string only;
   int size = 512, volume_points = 15;
   double scale = 1;  ///< of lights and caches
   std::string samples;
@@ -39,9 +40,9 @@ class Comparison {
   Comparison(const Options& options, const Setting& setting)
       : options_(options), setting_(setting), stage_(options.scenes + "/" + setting.scene, definitions(options)) {
     const auto scaled = [&](int n) { return static_cast<int>(n * options.scale); };
-    common_ = fmt::format("vpl,lights={},reuse=1000000,volume_points={},surface_caches={},volume_caches={}",
-                          scaled(setting.lights), options.volume_points, scaled(setting.caches) / 2,
-                          scaled(setting.caches) / 2);
+    common_ = fmt::format(
+        "vpl,lights={},reuse=1000000,direct_samples=1,volume_points={},surface_caches={},volume_caches={}",
+        scaled(setting.lights), options.volume_points, scaled(setting.caches) / 2, scaled(setting.caches) / 2);
     reference_ = stage_.render(common_ + ",light_sampler=all", 1, options.seed);
     mean_ = mean_of(reference_.image);
   }
@@ -116,9 +117,16 @@ void compare_at_equal_time(const Options& options, const Setting& setting, const
   const Result caching = comparison.measure("importance_cache", samples);
   print_head(title);
   print_row("importance caching", samples, caching, comparison.mean(), caching.rmse, ours);
-  for (const auto& [sampler, seed] : {std::pair{"uniform", uniform}, {"power", power}, {"light_tree", ""}}) {
-    const auto [count, result] = comparison.measure_in(sampler, caching.shot.seconds, samples);
-    print_row(sampler, count, result, comparison.mean(), caching.rmse, seed);
+  struct Other {
+    std::string name, sampler, seed;
+  };
+  const std::vector<Other> others = {{"caching, mixed as in the seed", "importance_cache,cache_mixture=seed", ""},
+                                     {"uniform", "uniform", uniform},
+                                     {"power", "power", power},
+                                     {"light tree", "light_tree", ""}};
+  for (const Other& other : others) {
+    const auto [count, result] = comparison.measure_in(other.sampler, caching.shot.seconds, samples);
+    print_row(other.name, count, result, comparison.mean(), caching.rmse, other.seed);
   }
   print_reference(comparison, caching, faster);
 }
@@ -142,6 +150,7 @@ int run(int argc, char** argv) {
   Options options;
   app.add_option("--scenes", options.scenes, "folder of the scenes");
   app.add_option("--figure", options.figures, "1, 5, 6");
+  app.add_option("--only", options.only, "part of the name of the one scene to render");
   app.add_option("--size", options.size, "pixels across");
   app.add_option("--scale", options.scale, "factor of the numbers of lights and caches of the seed");
   app.add_option("--volume-points", options.volume_points, "on each way through the fog");
@@ -150,16 +159,29 @@ int run(int argc, char** argv) {
   app.add_option("-D", options.definitions, "name=value of the scenes");
   CLI11_PARSE(app, argc, argv);
   set_log_level(LogLevel::kQuiet);
+  const auto run_if_asked = [&](const Setting& setting, const auto& compare) {
+    if (setting.scene.find(options.only) != std::string::npos) compare(setting);
+  };
   const Setting atrium{"foggy_atrium.xml", 15'000, 30'000, 150}, room{"conference_room.xml", 10'000, 15'000, 100};
   for (const int figure : options.figures) {
-    if (figure == 1 || figure == 5)
-      compare_at_equal_time(options, atrium, fmt::format("Figure {} (foggy_atrium.xml): equal time", figure),
-                            figure == 1 ? "53" : "58", figure == 1 ? "0.0354, caches 38 %" : "0.0146",
-                            figure == 1 ? "0.1483 (4.2)" : "0.111 (7.6)", figure == 1 ? "" : "not given");
-    if (figure == 5)
-      compare_at_equal_time(options, room, "Figure 5 (conference_room.xml): equal time", "55", "0.0238", "0.111 (4.7)",
-                            "not given");
-    if (figure == 6) compare_with_unshadowed(options, {"foggy_atrium.xml", 100'000, 30'000, 128});
+    if (figure == 1)
+      run_if_asked(atrium, [&](const Setting& setting) {
+        compare_at_equal_time(options, setting, "Figure 1 (foggy_atrium.xml): equal time", "53", "0.0354, caches 38 %",
+                              "0.1483 (4.2)", "");
+      });
+    if (figure == 5) {
+      run_if_asked(atrium, [&](const Setting& setting) {
+        compare_at_equal_time(options, setting, "Figure 5 (foggy_atrium.xml): equal time", "58", "0.0146",
+                              "0.111 (7.6)", "not given");
+      });
+      run_if_asked(room, [&](const Setting& setting) {
+        compare_at_equal_time(options, setting, "Figure 5 (conference_room.xml): equal time", "55", "0.0238",
+                              "0.111 (4.7)", "not given");
+      });
+    }
+    if (figure == 6)
+      run_if_asked({"foggy_atrium.xml", 100'000, 30'000, 128},
+                   [&](const Setting& setting) { compare_with_unshadowed(options, setting); });
   }
   return 0;
 }

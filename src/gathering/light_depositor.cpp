@@ -50,7 +50,8 @@ void LightDepositor::fly_through(const LightSegment& segment, const HomogeneousM
     }
     const Chord chord = chord_in(ray, volume);
     if (chord.empty()) return;
-    const float u = medium.is_grey() ? 0 : sampler_.aside(volume.origin, ray.direction).next_float();
+    const float u =
+        medium.is_grey() ? 0 : sampler_.aside(Purpose::kGatheredChord, volume.origin, ray.direction).next_float();
     deposit(volume, front * flux_through(segment, volume, chord, plan_.gather.long_cylinders, medium, u), state);
   });
 }

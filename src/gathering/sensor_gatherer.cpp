@@ -68,7 +68,7 @@ void SensorGatherer::place_spheres(const Ray& way, const HomogeneousMedium& medi
   };
   if (collides) place_at(way.t_max);
   if (q >= 1) return;
-  Rng rng = sampler_.aside(way.origin, way.direction);
+  Rng rng = sampler_.aside(Purpose::kIntegrationSpheres, way.origin, way.direction);
   Spectrum shares = mix * medium.transmittance(way.t_max);
   if (collides) shares *= sigma;
   const float sigma_picked = sigma[pick_channel(shares, rng.next_float())];

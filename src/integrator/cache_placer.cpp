@@ -1,8 +1,31 @@
 #include "integrator/cache_placer.h"
 
+#include <bit>
+
 #include "integrator/camera_sample.h"
 
 namespace turbid {
+
+namespace {
+
+/// The weight below which all together make up `share` of the sum, to within an eighth of an octave.
+float weight_below_which(float share, std::span<const float> weights) {
+  // Sums by the leading bits of the weights: numbers above 0 are in the order of their bits.
+  constexpr int kShift = 20;
+  std::array<double, 1 << (31 - kShift)> sums{};
+  double sum = 0;
+  for (const float weight : weights) {
+    if (!(weight > 0) || !std::isfinite(weight)) continue;
+    sums[std::bit_cast<uint32_t>(weight) >> kShift] += static_cast<double>(weight);
+    sum += static_cast<double>(weight);
+  }
+  double left = sum * static_cast<double>(share);
+  uint32_t bits = 0;
+  while (bits + 1 < sums.size() && sums[bits] <= left) left -= sums[bits++];
+  return std::bit_cast<float>(bits << kShift);
+}
+
+}  // namespace
 
 /// Stops at the first place of the kind that is asked for.
 class CachePlacer::Recorder : public ShadingRecorder {
@@ -26,7 +49,7 @@ class CachePlacer::Recorder : public ShadingRecorder {
       make_collisions(way, medium, state, owner_.plan_.path.max_depth, one, sampler_,
                       [&](const CollisionEvent& event, const PathState& at) { record(Vertex(event, at), traveller); });
     } else if (kind_ == PlaceKind::kWay) {
-      Rng rng = sampler_.aside(way.origin, way.direction);
+      Rng rng = sampler_.aside(Purpose::kCachedWay, way.origin, way.direction);
       std::vector<LightLines::Request> all(weights_.size());
       for (size_t light = 0; light < all.size(); ++light) {
         const float u = rng.next_float();
@@ -46,9 +69,19 @@ class CachePlacer::Recorder : public ShadingRecorder {
  private:
   void record(const Vertex& vertex, const Traveller& traveller) {
     const Scatterer place(vertex, TransportMode::kRadiance);
-    Rng rng = sampler_.aside(vertex.position, vertex.given);
-    for (size_t light = 0; light < weights_.size(); ++light)
-      weights_[light] = lines_.to_place(place, light, rng, traveller).mean();
+    Rng rng = sampler_.aside(Purpose::kCachedPlace, vertex.position, vertex.given);
+    const size_t points = owner_.lights_.points().size();
+    for (size_t light = 0; light < points; ++light)
+      weights_[light] = unshadowed(place, owner_.lights_.points()[light], owner_.plan_.lines).mean();
+    // Whether there is a shadow is asked only of lights that matter; the weak ones are chosen as if half were visible.
+    constexpr float kWeakShare = 0.1f, kHalf = 0.5f;
+    const float least = weight_below_which(kWeakShare, weights_.first(points));
+    for (size_t light = 0; light < weights_.size(); ++light) {
+      if (light < points && weights_[light] < least)
+        weights_[light] *= kHalf;
+      else if (light >= points || weights_[light] > 0)
+        weights_[light] = lines_.to_place(place, light, rng, traveller).mean();
+    }
     finish({vertex.position, vertex.is_surface() ? place.normal() : Vec3(0), true});
   }
   void finish(const ImportanceCache::Record& where) {

@@ -104,7 +104,7 @@ void LightSplatter::insert_from(const Vec3& x0, const PathState& state, const Tr
                                 const SurfaceEvent* surface, const Leave& leave) {
   Departure from{x0, expected_, true};
   if (!maker_.inserts(from) || !may_insert(state)) return;
-  Rng rng = sampler_.aside(x0, Vec3(1, 0, 0));
+  Rng rng = sampler_.aside(Purpose::kInsertedCollision, x0);
   const Vec2 u_aperture = next_2d(rng), u = next_2d(rng);
   const PathEnd end = end_at(u_aperture);
   const auto x1 = maker_.insert(from, end, u.x, u.y, rng.next_float());
@@ -128,7 +128,7 @@ void LightSplatter::depart(const Departure& from, const PathState& state, const 
   last_ = from;
   start_edge();
   if (!maker_.marches(from) || !may_insert(state) || state.throughput.is_black()) return;
-  Rng rng = sampler_.aside(from.position, Vec3(0, 1, 0));
+  Rng rng = sampler_.aside(Purpose::kMarchedCollision, from.position);
   const Vec2 u_aperture = next_2d(rng);
   const PathEnd end = end_at(u_aperture);
   const Vec3& direction = traveller.ray().direction;

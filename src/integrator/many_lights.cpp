@@ -92,8 +92,8 @@ void ManyLights::prepare_workers(const Scene& scene) {
   sources_.emplace(scene, true);
   own_.lines.max_depth = path_.max_depth;
   if (own_.refraction) scattering_ = std::make_unique<const RefractiveScattering>(scene, *own_.refraction);
-  plan_.emplace(
-      ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.rays, scattering_.get()});
+  plan_.emplace(ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.direct_samples,
+                            own_.rays, scattering_.get()});
   set_.reset();
   paths_ = 0;
 }
@@ -127,7 +127,7 @@ std::unique_ptr<LightSampler> ManyLights::make_sampler(const Scene& scene, uint6
     case ManyLightsSettings::Sampler::kUnshadowed:
       return std::make_unique<UnshadowedLightSampler>(lights, plan_->lines);
     case ManyLightsSettings::Sampler::kLightTree:
-      return std::make_unique<LightTree>(lights);
+      return std::make_unique<LightTree>(lights, plan_->lines);
     default:
       return make_caches(scene, seed, set, stop);
   }
@@ -144,16 +144,17 @@ std::unique_ptr<LightSampler> ManyLights::make_caches(const Scene& scene, uint64
   std::mutex mutex;
   // A right angle between normals counts as much as a fiftieth of the scene, one between ways as much as all of it.
   const std::array<float, kPlaceKinds> spacing = {0.02f * scene.radius(), 0, scene.radius()};
-  auto result = std::make_unique<ImportanceCache>(caches, set_->lights.size(), spacing,
-                                                  [&](PlaceKind kind, size_t number, std::span<float> weights) {
-                                                    if (stop.requested()) return ImportanceCache::Record{};
-                                                    SampleCounters counters;
-                                                    const auto record = placer.record(kind, number, weights, counters);
-                                                    const std::lock_guard lock(mutex);
-                                                    cache_connections_ += std::exchange(counters.connections, 0);
-                                                    prepared_.add(counters);
-                                                    return record;
-                                                  });
+  const auto record = [&](PlaceKind kind, size_t number, std::span<float> weights) {
+    if (stop.requested()) return ImportanceCache::Record{};
+    SampleCounters counters;
+    const auto point = placer.record(kind, number, weights, counters);
+    const std::lock_guard lock(mutex);
+    cache_connections_ += std::exchange(counters.connections, 0);
+    prepared_.add(counters);
+    return point;
+  };
+  auto result = std::make_unique<ImportanceCache>(caches, set_->lights.size(), spacing, record,
+                                                  std::make_unique<NearLights>(set_->lights, plan_->lines));
   if (result->is_cut() && caches_made_ == 0)
     log_warning(fmt::format("{} cache points for {} lights fit into the memory they may take, fewer than asked for",
                             result->points(), set_->lights.size()));

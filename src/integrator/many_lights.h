@@ -10,10 +10,10 @@ namespace turbid {
 struct ManyLightsSettings {
   enum class Sampler { kAll, kUniform, kPower, kUnshadowed, kImportanceCache, kLightTree };
   Sampler sampler = Sampler::kImportanceCache;
-  bool rays = false;      ///< ray lights instead of points where light collides
-  size_t lights = 1000;   ///< about so many in a set
-  int reuse = 16;         ///< samples of the pixels that share a set
-  int light_samples = 8;  ///< see ShadingPlan
+  bool rays = false;                          ///< ray lights instead of points where light collides
+  size_t lights = 1000;                       ///< about so many in a set
+  int reuse = 16;                             ///< samples of the pixels that share a set
+  int light_samples = 8, direct_samples = 4;  ///< see ShadingPlan
   LineSettings lines;
   VolumePoints volume_points;
   CacheSettings caches;

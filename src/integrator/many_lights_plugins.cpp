@@ -36,6 +36,7 @@ std::vector<Parameter> parameters(bool rays) {
         kAtLeastOne},
        {"light_samples", ParameterType::kInteger, "8", "virtual lights asked for at each place that is shaded",
         kAtLeastOne},
+       {"direct_samples", ParameterType::kInteger, "4", "lights asked for at each place that is shaded", kAtLeastOne},
        {"volume_points", ParameterType::kInteger, "4",
         rays ? "places on each way through a medium where lights are asked for directly"
              : "places that are shaded on each way through a medium",
@@ -51,6 +52,10 @@ std::vector<Parameter> parameters(bool rays) {
         "3",
         "cache points that are mixed at a place",
         {.min = 1, .max = ImportanceCache::kMostNearest}},
+       word("cache_mixture", "wide",
+            "what is mixed with the nearest cache points: wide (points around them, all points, near lights, a little "
+            "uniform choice), seed (uniform choice alone, as in the seed)",
+            {"wide", "seed"}),
        {"memory", ParameterType::kInteger, "512", "most memory for cache points, MiB", kAtLeastOne},
        {"clamp_distance", ParameterType::kFloat, "0",
         "virtual lights nearer than this count as at this distance: less noise, and darker; 0: as they are",
@@ -72,10 +77,14 @@ ManyLightsSettings settings_of(const Properties& properties, bool rays) {
   own.lights = static_cast<size_t>(count("lights"));
   own.reuse = count("reuse");
   own.light_samples = count("light_samples");
+  own.direct_samples = count("direct_samples");
   own.volume_points = {count("volume_points"), properties.string("volume_sampling") == "transmittance"};
-  own.caches = {{static_cast<size_t>(count("surface_caches")), static_cast<size_t>(count("volume_caches")), 0},
-                static_cast<size_t>(count("nearest")),
-                static_cast<size_t>(count("memory")) << 20};
+  const auto nearest = static_cast<size_t>(count("nearest"));
+  own.caches = {
+      .points = {static_cast<size_t>(count("surface_caches")), static_cast<size_t>(count("volume_caches")), 0},
+      .nearest = nearest,
+      .shares = properties.string("cache_mixture") == "seed" ? CacheShares::seed(nearest) : CacheShares{},
+      .memory = static_cast<size_t>(count("memory")) << 20};
   own.lines.clamp_distance = properties.number("clamp_distance");
   own.lines.least_distance = properties.number("least_distance");
   own.refraction = refraction_settings(properties);

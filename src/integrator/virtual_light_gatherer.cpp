@@ -4,14 +4,18 @@ namespace turbid {
 
 // --- lines -----------------------------------------------------------------------------------------------------------
 
+Spectrum LightLines::through(const Scatterer& place, const SurfaceEvent* surface, const Scatterer& light,
+                             const Spectrum& value, const Traveller& traveller) const {
+  const Vec3 wi = normalize(light.position() - place.position());
+  const Ray line = line_between(place.leave(wi), light.leave(-wi));
+  return value * traveller.look_along(line, Spectrum(1.0f), surface).transmittance;
+}
+
 Spectrum LightLines::shadowed(const Scatterer& place, const Scatterer& light, const Traveller& traveller) const {
   const Spectrum value = unshadowed(place, light, settings_);
   if (value.is_black()) return value;
-  const Vec3 wi = normalize(light.position() - place.position());
-  const Ray line = line_between(place.leave(wi), light.leave(-wi));
-  if (!place.is_surface()) return value * traveller.look_along(line, Spectrum(1.0f)).transmittance;
-  const SurfaceEvent surface = *place.vertex().surface_event();
-  return value * traveller.look_along(line, Spectrum(1.0f), &surface).transmittance;
+  const auto surface = place.is_surface() ? place.vertex().surface_event() : std::nullopt;
+  return through(place, surface ? &*surface : nullptr, light, value, traveller);
 }
 
 Spectrum LightLines::to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const {
@@ -66,7 +70,7 @@ void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, cons
   make_collisions(way, medium, state, plan_.path.max_depth, plan_.volume_points, sampler_,
                   [&](const CollisionEvent& event, const PathState& at) {
                     if (plan_.rays)
-                      direct_->at_collision(event, at, traveller);
+                      ask_lights(event, at, traveller);
                     else
                       shade(event, at, traveller);
                   });
@@ -77,7 +81,7 @@ void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, cons
 }
 
 template <class Ask>
-void VirtualLightGatherer::choose_lights(int order, Rng rng, const Ask& ask) {
+void VirtualLightGatherer::choose_lights(int order, bool once, Rng rng, const Ask& ask) {
   const auto choose = [&](size_t light, double factor) {
     Rng own = lights_.rays().empty() ? rng : Rng(hash_counters(rng.next_u32(), rng.next_u32()));
     if (!plan_.path.order_counts(order + lines_.order(light))) return;
@@ -88,10 +92,16 @@ void VirtualLightGatherer::choose_lights(int order, Rng rng, const Ask& ask) {
     for (size_t light = 0; light < lights_.size(); ++light) choose(light, 1);
     return;
   }
+  chooser_->draw(plan_.light_samples, Rng(hash_counters(rng.next_u32(), rng.next_u32())), draws_);
   const double samples = plan_.light_samples;
-  for (int i = 0; i < plan_.light_samples; ++i) {
-    const auto choice = chooser_->sample((i + rng.next_double()) / samples);
-    if (choice) choose(choice->light, 1 / (choice->prob * samples));
+  constexpr size_t kAhead = 4;  // lights lie anywhere in memory
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    if (i + kAhead < draws_.size()) lights_.prefetch(draws_[i + kAhead].light);
+    const auto& [light, times, prob] = draws_[i];
+    if (once && light < lights_.points().size())
+      choose(light, times / (prob * samples));
+    else
+      for (uint32_t k = 0; k < times; ++k) choose(light, 1 / (prob * samples));
   }
 }
 
@@ -99,10 +109,25 @@ void VirtualLightGatherer::ask_virtual_lights(const Vertex& vertex, const Travel
   if (lights_.empty() || vertex.throughput.is_black()) return;
   const Scatterer place(vertex, TransportMode::kRadiance);
   if (chooser_) chooser_->move_to(place);
-  choose_lights(place.order(), sampler_.aside(vertex.position, vertex.given),
-                [&](size_t light, float factor, Rng& rng) {
-                  add(place.order() + lines_.order(light), lines_.to_place(place, light, rng, traveller) * factor);
-                });
+  // First what lights would bring, then what stands between: so the processor waits for memory once for many.
+  waiting_.clear();
+  const Rng rng = sampler_.aside(Purpose::kLightsOfPlace, vertex.position, vertex.given);
+  choose_lights(place.order(), true, rng, [&](size_t light, float factor, Rng& own) {
+    if (light >= lights_.points().size())
+      return add(place.order() + lines_.order(light), lines_.to_place(place, light, own, traveller) * factor);
+    const Scatterer& point = lights_.points()[light];
+    const Spectrum value = unshadowed(place, point, plan_.lines) * factor;
+    if (value.is_black()) return;
+    if (point.is_surface()) __builtin_prefetch(&point.vertex().point);  // where the line will end
+    waiting_.push_back({&point, value});
+  });
+  cast_lines(place, traveller);
+}
+
+void VirtualLightGatherer::cast_lines(const Scatterer& place, const Traveller& traveller) {
+  const auto surface = place.is_surface() ? place.vertex().surface_event() : std::nullopt;
+  for (const auto& [light, value] : waiting_)
+    add(place.order() + light->order(), lines_.through(place, surface ? &*surface : nullptr, *light, value, traveller));
 }
 
 void VirtualLightGatherer::ask_along(const CollisionSegment& way, const Traveller& traveller) {
@@ -110,7 +135,7 @@ void VirtualLightGatherer::ask_along(const CollisionSegment& way, const Travelle
   if (chooser_) chooser_->move_along(way.way());
   requests_.clear();
   factors_.clear();
-  choose_lights(way.order(), sampler_.aside(way.way().origin, way.way().direction),
+  choose_lights(way.order(), false, sampler_.aside(Purpose::kLightsOfWay, way.way().origin, way.way().direction),
                 [&](size_t light, float factor, Rng& rng) {
                   const float u = rng.next_float();
                   requests_.push_back({light, {u, rng.next_float()}});

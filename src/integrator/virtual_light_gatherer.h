@@ -13,7 +13,8 @@ struct ShadingPlan {
   const PathSettings& path;
   LineSettings lines;
   VolumePoints volume_points;
-  int light_samples = 8;  ///< lights asked for at each place
+  int light_samples = 8;   ///< virtual lights asked for at each place
+  int direct_samples = 4;  ///< the same of lights
   /// Lights shade whole ways of the sensor's walk at once (ray lights); volume_points are then for lights asked for
   /// directly.
   bool rays = false;
@@ -29,6 +30,9 @@ class LightLines {
 
   /// `traveller` stands at the place.
   Spectrum to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const;
+  /// What a point light brings that would bring `value` if nothing stood between. `surface`: the place, if it is one.
+  Spectrum through(const Scatterer& place, const SurfaceEvent* surface, const Scatterer& light, const Spectrum& value,
+                   const Traveller& traveller) const;
   /// A light, and the numbers that places are drawn from for it.
   struct Request {
     size_t light;
@@ -105,7 +109,7 @@ class VirtualLightGatherer : public ShadingRecorder {
   }
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
     if (!shades() || !(event.object.bsdf->flags() & lobe::kSmooth)) return;
-    direct_->at_surface(event, state, traveller);
+    ask_lights(state, [&](const PathState& part) { direct_->at_surface(event, part, traveller); });
     ask_virtual_lights(Vertex(event, state, traveller.medium()), traveller);
   }
   void left_surface(const SurfaceEvent& event, const BsdfSample& sample, const Vec3& chosen, const PathState& state,
@@ -123,15 +127,27 @@ class VirtualLightGatherer : public ShadingRecorder {
 
  private:
   void shade(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-    direct_->at_collision(event, state, traveller);
+    ask_lights(event, state, traveller);
     ask_virtual_lights(Vertex(event, state), traveller);
   }
+  void ask_lights(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+    ask_lights(state, [&](const PathState& part) { direct_->at_collision(event, part, traveller); });
+  }
+  /// Next-event estimation several times, each for a part of the path's throughput.
+  template <class Ask>
+  void ask_lights(const PathState& state, const Ask& ask) {
+    const PathState part{state.throughput / static_cast<float>(plan_.direct_samples), state.depth, state.order};
+    for (int i = 0; i < plan_.direct_samples; ++i) ask(part);
+  }
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
+  /// Casts the lines of waiting_ from the place.
+  void cast_lines(const Scatterer& place, const Traveller& traveller);
   void ask_along(const CollisionSegment& way, const Traveller& traveller);
   /// Calls ask(light, factor, rng) for all lights, or for those that the chooser draws. The numbers of each are its
-  /// own, so that it changes nothing else whether it counts.
+  /// own, so that it changes nothing else whether it counts. `once`: what a point light brings has nothing random, so
+  /// that one which was drawn more often is asked once.
   template <class Ask>
-  void choose_lights(int order, Rng rng, const Ask& ask);
+  void choose_lights(int order, bool once, Rng rng, const Ask& ask);
   void add(int order, const Spectrum& value) { by_order_[std::min(order, kOrderClasses - 1)] += value; }
 
   const ShadingPlan& plan_;
@@ -143,6 +159,12 @@ class VirtualLightGatherer : public ShadingRecorder {
   std::optional<LightGatherer> direct_;
   std::vector<LightLines::Request> requests_;
   std::vector<float> factors_;
+  std::vector<LightSampler::Chooser::Draw> draws_;
+  struct Line {
+    const Scatterer* light;
+    Spectrum value;  ///< if nothing stands between
+  };
+  std::vector<Line> waiting_;
   Spectrum by_order_[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "manylight/scatterer.h"
 #include "manylight/segment_pair.h"
+#include "medium/homogeneous.h"
 #include "path/passage.h"
 
 namespace turbid {
@@ -26,14 +27,30 @@ class CollisionSegment {
   /// A collision at distance t, with what the walk brings to it per length; times 1 / (density of t).
   /// From a light: flux x sigma_s x T_i(t) / sum mix_j T_j(t), for the segment ends at t or before with the rest of the
   /// probability. From the sensor: throughput x T(t) x sigma_s. `sampler`: for media that vary.
-  Scatterer place_at(float t, double pdf_t, const Sampler& sampler) const;
+  Scatterer place_at(float t, double pdf_t, const Sampler& sampler) const {
+    const CollisionEvent event{way_.at(t), way_.direction, *medium_};
+    const auto density = static_cast<float>(1 / pdf_t);
+    return Scatterer(event, PathState{homogeneous_ ? scattered_ * arriving(homogeneous_->transmittance(t)) * density
+                                                   : scattered_at(event.position, t, sampler) * density,
+                                      depth_, order_});
+  }
 
  private:
   CollisionSegment() = default;
 
+  Spectrum arriving(const Spectrum& transmittance) const {
+    if (!from_light_) return transmittance;
+    const float survives = (mix_ * transmittance).sum();
+    return survives > 0 ? transmittance / survives : Spectrum(0.0f);
+  }
+  /// The same where the medium varies.
+  Spectrum scattered_at(const Vec3& p, float t, const Sampler& sampler) const;
+
   Ray way_;
   const Medium* medium_ = nullptr;
+  const HomogeneousMedium* homogeneous_ = nullptr;
   Spectrum throughput_, mix_;
+  Spectrum scattered_;  ///< throughput x sigma_s, where the medium is homogeneous
   float g_ = 0;
   int depth_ = 0, order_ = 0;
   bool from_light_ = false;

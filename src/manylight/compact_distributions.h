@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,16 +27,19 @@ class CompactDistributions {
   LightChoice sample(size_t row, double u) const;
   /// 0 in empty rows.
   double prob(size_t row, size_t light) const {
-    return static_cast<double>(value(code(row, light))) * inverse_totals_[row];
+    return static_cast<double>(kValues[code(row, light)]) * inverse_totals_[row];
   }
+  /// Adds `factor` times the probabilities of lights [first, first + sums.size()) to sums.
+  void add_probs(size_t row, double factor, size_t first, std::span<float> sums) const;
 
   size_t bytes() const { return bytes_for(rows(), lights_); }
   static size_t bytes_for(size_t rows, size_t lights);
 
  private:
   static constexpr size_t kBlock = 64;  ///< lights under one partial sum
+  void clear(size_t row);
   static size_t blocks_of(size_t lights) { return (lights + kBlock - 1) / kBlock; }
-  static uint64_t value(uint8_t code);
+  static const std::array<uint64_t, 256> kValues;  ///< by code
   uint8_t code(size_t row, size_t light) const { return codes_[row * lights_ + light]; }
 
   size_t lights_ = 0, blocks_ = 0;

@@ -14,8 +14,12 @@ size_t points_that_fit(const CacheSettings& settings, size_t lights) {
 }  // namespace
 
 ImportanceCache::ImportanceCache(const CacheSettings& settings, size_t lights,
-                                 const std::array<float, kPlaceKinds>& spacing, const Recorder& record)
-    : lights_(lights), nearest_(std::clamp<size_t>(settings.nearest, 1, kMostNearest)) {
+                                 const std::array<float, kPlaceKinds>& spacing, const Recorder& record,
+                                 std::unique_ptr<NearLights> near)
+    : lights_(lights),
+      nearest_(std::clamp<size_t>(settings.nearest, 1, kMostNearest)),
+      shares_(settings.shares),
+      near_(std::move(near)) {
   std::vector<PlaceKind> kinds;
   const size_t asked = std::accumulate(settings.points.begin(), settings.points.end(), size_t{0});
   const size_t fit = points_that_fit(settings, lights);
@@ -40,7 +44,42 @@ ImportanceCache::ImportanceCache(const CacheSettings& settings, size_t lights,
     kinds_[k].rows.push_back(static_cast<uint32_t>(i));
     places[k].push_back(kinds_[k].where(records[i].position, records[i].direction));
   }
-  for (size_t k = 0; k < kPlaceKinds; ++k) kinds_[k].tree = Tree(std::move(places[k]));
+  for (size_t k = 0; k < kPlaceKinds; ++k) {
+    blend(places[k], kinds_[k].rows);
+    kinds_[k].tree = Tree(std::move(places[k]));
+  }
+}
+
+// What a light brings varies with shadows: it may be dark at the nearest points and bright at the place. Where it is
+// bright at points around these, their mean finds it far more often than uniform choice does.
+void ImportanceCache::blend(const std::vector<Tree::Point>& places, const std::vector<uint32_t>& rows) {
+  if (rows.empty() || (shares_.group == 0 && shares_.all == 0)) return;
+  // By blocks of lights, so that sums do not depend on threads.
+  constexpr size_t kBlock = 1024;
+  std::vector<float> all(lights_);
+  parallel_for((lights_ + kBlock - 1) / kBlock, [&](size_t block) {
+    const size_t first = block * kBlock;
+    const std::span<float> sums = std::span(all).subspan(first, std::min(kBlock, lights_ - first));
+    for (const uint32_t row : rows) rows_.add_probs(row, 1 / static_cast<double>(rows.size()), first, sums);
+  });
+
+  const auto group_share = static_cast<float>(shares_.group), all_share = static_cast<float>(shares_.all);
+  std::vector<uint32_t> order(places.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<std::span<const uint32_t>> groups;
+  for_groups(places, std::span(order), kGroup, [&](std::span<const uint32_t> group) { groups.push_back(group); });
+  parallel_for(groups.size(), [&](size_t g) {
+    thread_local std::vector<float> mean, mixed;
+    mean.assign(lights_, 0.0f);
+    for (const uint32_t i : groups[g]) rows_.add_probs(rows[i], 1 / static_cast<double>(groups[g].size()), 0, mean);
+    for (const uint32_t i : groups[g]) {
+      mixed.assign(lights_, 0.0f);
+      rows_.add_probs(rows[i], 1 - shares_.group - shares_.all, 0, mixed);
+      for (size_t light = 0; light < lights_; ++light)
+        mixed[light] += group_share * mean[light] + all_share * all[light];
+      rows_.set(rows[i], mixed);
+    }
+  });
 }
 
 size_t ImportanceCache::points() const {
@@ -64,10 +103,9 @@ ImportanceCache::Mixture ImportanceCache::mixture_at(PlaceKind kind, const Vec3&
   if (mixture.count == 0) return mixture;
   double sum = 0;
   for (size_t m = 0; m < mixture.count; ++m) sum += mixture.weights[m];
-  const double uniform = sum / static_cast<double>(mixture.count), all = sum + uniform;
-  mixture.uniform = uniform / all;
+  mixture.uniform = 0;
   for (size_t m = 0; m < mixture.count; ++m) {
-    mixture.weights[m] /= all;
+    mixture.weights[m] /= sum;
     if (rows_.is_empty(mixture.rows[m])) {
       mixture.uniform += mixture.weights[m];
       mixture.weights[m] = 0;
@@ -81,38 +119,66 @@ class ImportanceCache::MixtureChooser final : public LightSampler::Chooser {
   explicit MixtureChooser(const ImportanceCache& cache) : cache_(cache) {}
 
   void move_to(const Scatterer& place) override {
-    mixture_ = place.is_surface() ? cache_.mixture_at(PlaceKind::kSurface, place.position(), place.normal())
-                                  : cache_.mixture_at(PlaceKind::kCollision, place.position(), Vec3(0));
+    const CacheShares& shares = cache_.shares_;
+    near_ = cache_.near_ && shares.near > 0 ? NearLights::Choice(*cache_.near_, place) : NearLights::Choice();
+    const bool surface = place.is_surface();
+    mix(cache_.mixture_at(surface ? PlaceKind::kSurface : PlaceKind::kCollision, place.position(),
+                          surface ? place.normal() : Vec3(0)),
+        surface && !place.is_diffuse() ? shares.glossy : shares.uniform);
   }
-  void move_along(const Ray& way) override { mixture_ = cache_.mixture_at(PlaceKind::kWay, way.origin, way.direction); }
+  void move_along(const Ray& way) override {
+    near_ = {};
+    mix(cache_.mixture_at(PlaceKind::kWay, way.origin, way.direction), cache_.shares_.uniform);
+  }
 
   std::optional<LightChoice> sample(double u) const override {
     if (cache_.lights_ == 0) return std::nullopt;
-    for (size_t m = 0; m < mixture_.count; ++m) {
-      const double weight = mixture_.weights[m];
-      if (u < weight) return choice(cache_.rows_.sample(mixture_.rows[m], std::min(u / weight, kBelowOne)).light);
-      u -= weight;
-    }
-    const double lights = static_cast<double>(cache_.lights_);
-    return choice(static_cast<size_t>(std::clamp(u / mixture_.uniform, 0.0, kBelowOne) * lights));
+    const size_t light = light_at(u);
+    return LightChoice{light, prob(light)};
   }
 
   double prob(size_t light) const override {
     double prob = mixture_.uniform / static_cast<double>(cache_.lights_);
+    if (near_share_ > 0) prob += near_share_ * near_.prob(light);
     for (size_t m = 0; m < mixture_.count; ++m)
       if (mixture_.weights[m] > 0) prob += mixture_.weights[m] * cache_.rows_.prob(mixture_.rows[m], light);
     return prob;
   }
 
  private:
+  std::optional<LightChoice> sample_light(double u) const override {
+    if (cache_.lights_ == 0) return std::nullopt;
+    return LightChoice{light_at(u), 0};
+  }
+  bool knows_prob_when_drawn() const override { return false; }
+
+  /// `cached`: what the nearest points say; from now on its weights add up to 1 with all other shares.
+  void mix(const Mixture& cached, double uniform) {
+    near_share_ = near_.is_empty() ? 0 : cache_.shares_.near;
+    const double rest = 1 - near_share_ - uniform;
+    mixture_ = cached;
+    for (size_t m = 0; m < mixture_.count; ++m) mixture_.weights[m] *= rest;
+    mixture_.uniform = uniform + rest * cached.uniform;
+  }
+
   static constexpr double kBelowOne = 0x1.fffffffffffffp-1;
-  LightChoice choice(size_t light) const {
-    light = std::min(light, cache_.lights_ - 1);
-    return {light, prob(light)};
+  size_t light_at(double u) const {
+    for (size_t m = 0; m < mixture_.count; ++m) {
+      const double weight = mixture_.weights[m];
+      if (u < weight) return cache_.rows_.sample(mixture_.rows[m], std::min(u / weight, kBelowOne)).light;
+      u -= weight;
+    }
+    if (u < near_share_) return near_.sample(std::min(u / near_share_, kBelowOne));
+    u -= near_share_;
+    const double lights = static_cast<double>(cache_.lights_);
+    const double at = std::clamp(u / mixture_.uniform, 0.0, kBelowOne) * lights;
+    return std::min(static_cast<size_t>(at), cache_.lights_ - 1);
   }
 
   const ImportanceCache& cache_;
   Mixture mixture_;
+  NearLights::Choice near_;
+  double near_share_ = 0;
 };
 
 std::unique_ptr<LightSampler::Chooser> ImportanceCache::make_chooser() const {

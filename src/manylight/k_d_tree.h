@@ -9,6 +9,37 @@
 
 namespace turbid {
 
+/// Orders the range so that its first half lies before the rest along the axis where it is widest; returns the axis.
+template <size_t D>
+size_t halve(const std::vector<std::array<float, D>>& points, std::span<uint32_t> range) {
+  std::array<float, D> low = points[range.front()], high = low;
+  for (const uint32_t i : range)
+    for (size_t d = 0; d < D; ++d) {
+      low[d] = std::min(low[d], points[i][d]);
+      high[d] = std::max(high[d], points[i][d]);
+    }
+  size_t axis = 0;
+  for (size_t d = 1; d < D; ++d)
+    if (high[d] - low[d] > high[axis] - low[axis]) axis = d;
+  const auto middle = range.begin() + static_cast<std::ptrdiff_t>(range.size() / 2);
+  std::nth_element(range.begin(), middle, range.end(), [&](uint32_t a, uint32_t b) {
+    return points[a][axis] != points[b][axis] ? points[a][axis] < points[b][axis] : a < b;
+  });
+  return axis;
+}
+
+/// Cuts the range into groups of at most `most` points that lie together, and calls visit(group) for each.
+template <size_t D, class Visit>
+void for_groups(const std::vector<std::array<float, D>>& points, std::span<uint32_t> range, size_t most,
+                const Visit& visit) {
+  if (range.empty()) return;
+  if (range.size() <= std::max<size_t>(most, 1)) return visit(range);
+  halve(points, range);
+  const size_t half = range.size() / 2;
+  for_groups(points, range.subspan(0, half), most, visit);
+  for_groups(points, range.subspan(half), most, visit);
+}
+
 /// Finds the points nearest to a place, in D dimensions. Built once; queries are const and thread-safe.
 template <size_t D>
 class KdTree {
@@ -24,6 +55,11 @@ class KdTree {
     std::iota(order_.begin(), order_.end(), 0u);
     axes_.resize(points_.size());
     build(0, points_.size());
+    // In the tree's order, so that neighbours share lines of memory.
+    std::vector<Point> ordered;
+    ordered.reserve(points_.size());
+    for (const uint32_t i : order_) ordered.push_back(points_[i]);
+    points_ = std::move(ordered);
   }
 
   size_t size() const { return points_.size(); }
@@ -37,41 +73,38 @@ class KdTree {
   }
 
  private:
+  static constexpr size_t kLeaf = 8;  ///< points that are asked one by one
+
   // The middle of a range is its node; what lies before it along the node's axis stands before it.
   void build(size_t begin, size_t end) {
-    if (end - begin < 2) return;
-    Point low = points_[order_[begin]], high = low;
-    for (size_t i = begin; i < end; ++i)
-      for (size_t d = 0; d < D; ++d) {
-        low[d] = std::min(low[d], points_[order_[i]][d]);
-        high[d] = std::max(high[d], points_[order_[i]][d]);
-      }
-    size_t axis = 0;
-    for (size_t d = 1; d < D; ++d)
-      if (high[d] - low[d] > high[axis] - low[axis]) axis = d;
+    if (end - begin <= kLeaf) return;
     const size_t middle = (begin + end) / 2;
-    const auto at = [this](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(begin), at(middle), at(end), [&](uint32_t a, uint32_t b) {
-      return points_[a][axis] != points_[b][axis] ? points_[a][axis] < points_[b][axis] : a < b;
-    });
-    axes_[middle] = static_cast<uint8_t>(axis);
+    axes_[middle] = static_cast<uint8_t>(halve(points_, std::span(order_).subspan(begin, end - begin)));
     build(begin, middle);
     build(middle + 1, end);
   }
 
   void search(const Point& place, size_t begin, size_t end, std::span<Neighbour> found, size_t& count) const {
-    if (begin == end || found.empty()) return;
+    if (found.empty()) return;
+    if (end - begin <= kLeaf) {
+      for (size_t i = begin; i < end; ++i) insert({order_[i], distance2_to(place, i)}, found, count);
+      return;
+    }
     const size_t middle = (begin + end) / 2;
-    const Point& node = points_[order_[middle]];
+    const Point& node = points_[middle];
     const size_t axis = axes_[middle];
     const float beyond = place[axis] - node[axis];
     const bool first_half = beyond < 0;
     first_half ? search(place, begin, middle, found, count) : search(place, middle + 1, end, found, count);
-    float distance2 = 0;
-    for (size_t d = 0; d < D; ++d) distance2 += (place[d] - node[d]) * (place[d] - node[d]);
-    insert({order_[middle], distance2}, found, count);
+    insert({order_[middle], distance2_to(place, middle)}, found, count);
     if (count < found.size() || beyond * beyond < found[count - 1].distance2)
       first_half ? search(place, middle + 1, end, found, count) : search(place, begin, middle, found, count);
+  }
+
+  float distance2_to(const Point& place, size_t i) const {
+    float distance2 = 0;
+    for (size_t d = 0; d < D; ++d) distance2 += (place[d] - points_[i][d]) * (place[d] - points_[i][d]);
+    return distance2;
   }
 
   static void insert(const Neighbour& neighbour, std::span<Neighbour> found, size_t& count) {

@@ -1,6 +1,9 @@
 #pragma once
 #include <bit>
 #include <experimental/simd>
+#if defined(__SSE__)
+#include <immintrin.h>
+#endif
 
 #include "core/vector.h"
 
@@ -15,6 +18,22 @@ using IntLanes = std::experimental::rebind_simd_t<int32_t, Lanes>;
 inline Lanes select(const Lanes::mask_type& condition, const Lanes& yes, Lanes no) {
   std::experimental::where(condition, no) = yes;
   return no;
+}
+
+/// 1 / sqrt(x) for normal x > 0, to a few units in the last place: several times as fast as root and quotient.
+inline Lanes inverse_sqrt_lanes(const Lanes& x) {
+#if defined(__AVX512F__)
+  const auto r = std::bit_cast<Lanes>(_mm512_rsqrt14_ps(std::bit_cast<__m512>(x)));
+#elif defined(__AVX__)
+  const auto r = std::bit_cast<Lanes>(_mm256_rsqrt_ps(std::bit_cast<__m256>(x)));
+#elif defined(__SSE__)
+  const auto r = std::bit_cast<Lanes>(_mm_rsqrt_ps(std::bit_cast<__m128>(x)));
+#else
+  return 1 / sqrt(x);
+#endif
+#if defined(__SSE__)
+  return r * (1.5f - 0.5f * x * r * r);  // a step of Newton's method
+#endif
 }
 
 /// e^x for |x| <= 80; beyond, as at the limit.

@@ -50,6 +50,25 @@ class PowerChooser final : public LightSampler::Chooser {
 
 }  // namespace
 
+// Sorted: lights that stand side by side, and the memory that tells of them, are asked for in turn.
+void LightSampler::Chooser::draw(int n, Rng rng, std::vector<Draw>& draws) const {
+  draws.clear();
+  for (int i = 0; i < n; ++i)
+    if (const auto choice = sample_light((i + rng.next_double()) / n))
+      draws.push_back({static_cast<uint32_t>(choice->light), 1, choice->prob});
+  std::sort(draws.begin(), draws.end(), [](const Draw& a, const Draw& b) { return a.light < b.light; });
+  size_t kept = 0;
+  for (size_t i = 0; i < draws.size(); ++i) {
+    if (kept > 0 && draws[kept - 1].light == draws[i].light)
+      ++draws[kept - 1].times;
+    else
+      draws[kept++] = draws[i];
+  }
+  draws.resize(kept);
+  if (!knows_prob_when_drawn())
+    for (Draw& draw : draws) draw.prob = prob(draw.light);
+}
+
 PowerLightSampler::PowerLightSampler(const VirtualLights& lights) {
   for (const Scatterer& light : lights.points()) sums_.add(static_cast<double>(light.strength()));
 }

@@ -56,6 +56,19 @@ class LightSampler {
     virtual std::optional<LightChoice> sample(double u) const = 0;
     /// The probability with which sample() returns this light.
     virtual double prob(size_t light) const = 0;
+
+    /// A light that was drawn, and how often.
+    struct Draw {
+      uint32_t light, times;
+      double prob;
+    };
+    /// Draws n times, from n strata, into `draws`: every light that was drawn once, in the order of the lights.
+    void draw(int n, Rng rng, std::vector<Draw>& draws) const;
+
+   protected:
+    /// As sample(), where the probability is asked for later; `draws` holds it not yet then.
+    virtual std::optional<LightChoice> sample_light(double u) const { return sample(u); }
+    virtual bool knows_prob_when_drawn() const { return true; }
   };
   virtual std::unique_ptr<Chooser> make_chooser() const = 0;
 };

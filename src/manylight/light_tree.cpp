@@ -4,11 +4,27 @@
 
 namespace turbid {
 
-LightTree::LightTree(const VirtualLights& lights) : leaf_of_(lights.size()) {
+LightTree::LightTree(const VirtualLights& lights, const LineSettings& lines)
+    : clamp_distance_(lines.clamp_distance), leaf_of_(lights.size()) {
   std::vector<uint32_t> order(lights.size());
   std::iota(order.begin(), order.end(), 0u);
   nodes_.reserve(2 * lights.size());
   if (!order.empty()) build(lights.points(), order, 0);
+}
+
+/// A cone around the mean of the normals.
+void LightTree::find_cone(const std::vector<Scatterer>& lights, std::span<const uint32_t> range, Node& node) {
+  Vec3 sum(0);
+  for (const uint32_t light : range) {
+    if (!lights[light].is_diffuse()) return;
+    sum += lights[light].normal();
+  }
+  if (!(length(sum) > 0)) return;
+  node.axis = normalize(sum);
+  float cosine = 1;
+  for (const uint32_t light : range) cosine = std::min(cosine, dot(node.axis, lights[light].normal()));
+  constexpr float kRounding = 1e-3f;  // of angles in single precision: nothing that shines is left out
+  node.angle = std::acos(std::max(cosine, -1.0f)) + kRounding;
 }
 
 uint32_t LightTree::build(const std::vector<Scatterer>& lights, std::span<uint32_t> range, uint32_t parent) {
@@ -20,6 +36,7 @@ uint32_t LightTree::build(const std::vector<Scatterer>& lights, std::span<uint32
     node.box.extendBy(lights[light].position());
     node.strength += lights[light].strength();
   }
+  find_cone(lights, range, node);
   if (range.size() == 1) {
     node.light = range[0];
     leaf_of_[node.light] = index;
@@ -41,8 +58,8 @@ uint32_t LightTree::build(const std::vector<Scatterer>& lights, std::span<uint32
 
 class LightTree::Descent final : public LightSampler::Chooser {
  public:
-  explicit Descent(const std::vector<Node>& nodes, const std::vector<uint32_t>& leaf_of)
-      : nodes_(nodes), leaf_of_(leaf_of) {}
+  Descent(const std::vector<Node>& nodes, const std::vector<uint32_t>& leaf_of, float clamp_distance)
+      : nodes_(nodes), leaf_of_(leaf_of), clamp_distance2_(sqr(static_cast<double>(clamp_distance))) {}
 
   void move_to(const Scatterer& place) override { place_ = &place; }
 
@@ -91,17 +108,29 @@ class LightTree::Descent final : public LightSampler::Chooser {
           1.0, static_cast<double>(highest) / std::sqrt(static_cast<double>(std::max(dot(way, way), dot(half, half)))));
     }
     const double distance2 =
-        std::max({static_cast<double>(dot(way, way)), static_cast<double>(dot(half, half)), 1e-30});
-    return static_cast<double>(node.strength) * cosine / distance2;
+        std::max({static_cast<double>(dot(way, way)), static_cast<double>(dot(half, half)), clamp_distance2_, 1e-30});
+    return static_cast<double>(node.strength) * cosine * cosine_at(node, way, length(half)) / distance2;
+  }
+
+  /// At most so large is the cosine at any of the lights: their normals turn by the cone's angle, their directions to
+  /// the place by what the box subtends there. 0 only where none of them shines this way.
+  static double cosine_at(const Node& node, const Vec3& way, float radius) {
+    if (node.angle >= kPi) return 1;
+    const float distance = length(way);
+    if (!(distance > radius)) return 1;
+    const float between = std::acos(std::clamp(-dot(way, node.axis) / distance, -1.0f, 1.0f));
+    const float angle = std::max(0.0f, between - node.angle - std::asin(radius / distance));
+    return angle < kPi / 2 ? static_cast<double>(std::cos(angle)) : 0;
   }
 
   const std::vector<Node>& nodes_;
   const std::vector<uint32_t>& leaf_of_;
+  double clamp_distance2_;
   const Scatterer* place_ = nullptr;
 };
 
 std::unique_ptr<LightSampler::Chooser> LightTree::make_chooser() const {
-  return std::make_unique<Descent>(nodes_, leaf_of_);
+  return std::make_unique<Descent>(nodes_, leaf_of_, clamp_distance_);
 }
 
 }  // namespace turbid

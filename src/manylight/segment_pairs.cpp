@@ -25,13 +25,15 @@ Lanes dot(const Vec3Lanes& a, const Vec3Lanes& b) { return a.x * b.x + a.y * b.y
 Lanes lobes_of(const Lanes& g, const Lanes& mu, const Lanes& other_g, const Lanes& other_mu) {
   const Lanes least = 1e-6f;
   const Lanes base = max(1 + g * g - 2 * g * mu, least) * max(1 + other_g * other_g - 2 * other_g * other_mu, least);
-  return 1 / (base * sqrt(base));
+  const Lanes root = inverse_sqrt_lanes(base);
+  return root * root * root;
 }
 
-Lanes rough_acos(const Lanes& c) {
+Lanes rough_angle(const Lanes& c, const Lanes& sine) {
   const Lanes a = min(max(c, -c), Lanes(1.0f));
-  const Lanes r = sqrt(1 - a) * (1.5707288f + a * (-0.2121144f + a * (0.0742610f - 0.0187293f * a)));
-  return select(c < 0, kPi - r, r);
+  const Lanes s = max(1 - a, Lanes(1e-12f));
+  const Lanes r = s * inverse_sqrt_lanes(s) * (1.5707288f + a * (-0.2121144f + a * (0.0742610f - 0.0187293f * a)));
+  return select(c > 0.95f, sine * (1 + sine * sine * (1.0f / 6)), select(c < 0, kPi - r, r));
 }
 
 Lanes exp_asinh(const Lanes& x) {
@@ -138,15 +140,17 @@ class PairLanes {
   Lanes weight_at(const Lanes& t) const {
     const Lanes foot = start_along_ + t * across_;
     const Vec3Lanes p = start_ + light_ * t - direction_ * foot;
-    const Lanes d2 = max(dot(p, p), Lanes(1e-20f)), distance = sqrt(d2), b = length_ - foot;
-    const Lanes ia = 1 / sqrt(d2 + foot * foot), ib = 1 / sqrt(d2 + b * b);
+    const Lanes d2 = max(dot(p, p), Lanes(1e-20f)), inverse = inverse_sqrt_lanes(d2), distance = d2 * inverse;
+    const Lanes b = length_ - foot;
+    const Lanes ia = inverse_sqrt_lanes(d2 + foot * foot), ib = inverse_sqrt_lanes(d2 + b * b);
     const Lanes ca = distance * ia, sa = -foot * ia, cb = distance * ib, sb = b * ib;
-    const Lanes cm = ca + cb, sm = sa + sb, im = 1 / sqrt(max(cm * cm + sm * sm, Lanes(1e-12f)));
-    const Lanes normal_light = -dot(p, light_) / distance;
+    const Lanes cm = ca + cb, sm = sa + sb, im = inverse_sqrt_lanes(max(cm * cm + sm * sm, Lanes(1e-12f)));
+    const Lanes normal_light = -dot(p, light_) * inverse;
     const auto lobes_at = [&](const Lanes& c, const Lanes& s) {
       return lobes_of(g_sensor_, -s, g_light_, c * normal_light + s * across_);
     };
-    return rough_acos(ca * cb + sa * sb) * (lobes_at(ca, sa) + 2 * lobes_at(cm * im, sm * im) + lobes_at(cb, sb));
+    return rough_angle(ca * cb + sa * sb, distance * length_ * ia * ib) *
+           (lobes_at(ca, sa) + 2 * lobes_at(cm * im, sm * im) + lobes_at(cb, sb));
   }
 
   void choose_on_sensor() {

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "core/parallel.h"
+#include "manylight/k_d_tree.h"
 #include "path/walk.h"
 
 namespace turbid {
@@ -68,12 +69,30 @@ Left trace(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCount
   return all;
 }
 
+/// Puts side by side what stands side by side.
+template <class Thing, class Where>
+std::vector<Thing> ordered_by_place(std::vector<Thing> things, const Where& where) {
+  std::vector<KdTree<3>::Point> places;
+  std::vector<uint32_t> order;
+  for (const Thing& thing : things) {
+    const Vec3 p = where(thing);
+    order.push_back(static_cast<uint32_t>(places.size()));
+    places.push_back({p.x, p.y, p.z});
+  }
+  for_groups(places, std::span(order), 1, [](std::span<const uint32_t>) {});
+  std::vector<Thing> result;
+  result.reserve(things.size());
+  for (const uint32_t i : order) result.push_back(std::move(things[i]));
+  return result;
+}
+
 }  // namespace
 
 VirtualLights::VirtualLights(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
   Left left = trace(plan, paths, set, counters);
-  vertices_ = std::move(left.vertices);
-  rays_ = std::move(left.rays);
+  vertices_ = ordered_by_place(std::move(left.vertices), [](const Vertex& vertex) { return vertex.position; });
+  rays_ = ordered_by_place(std::move(left.rays),
+                           [](const CollisionSegment& ray) { return ray.way().at(ray.way().t_max / 2); });
   points_.reserve(vertices_.size());
   for (const Vertex& vertex : vertices_) points_.emplace_back(vertex, TransportMode::kImportance);
 }

@@ -27,8 +27,9 @@ struct VirtualLightPlan {
 /// there.
 class VirtualLights {
  public:
-  /// Traces `paths` light paths; `set` tells one set of lights from another. The lights come in the order of the paths,
-  /// whatever the threads do.
+  /// Traces `paths` light paths; `set` tells one set of lights from another. The order of the lights
+  /// depends on nothing else; neighbours in it stand near each other, so that samples which are stratified over it are
+  /// so in space, and lines to lights in turn run side by side.
   VirtualLights(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCounters& counters);
   VirtualLights(VirtualLights&&) = default;
   VirtualLights& operator=(VirtualLights&&) = default;
@@ -37,6 +38,13 @@ class VirtualLights {
   const std::vector<CollisionSegment>& rays() const { return rays_; }
   size_t size() const { return points_.size() + rays_.size(); }
   bool empty() const { return size() == 0; }
+  /// The light will be asked soon.
+  void prefetch(size_t light) const {
+    const void* const at = light < points_.size() ? static_cast<const void*>(&points_[light])
+                                                  : static_cast<const void*>(&rays_[light - points_.size()]);
+    __builtin_prefetch(at);
+    __builtin_prefetch(static_cast<const char*>(at) + 64);
+  }
 
  private:
   std::vector<Vertex> vertices_;

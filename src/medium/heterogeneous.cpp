@@ -147,7 +147,7 @@ Flight HeterogeneousMedium::sample_flight(const Ray& ray, const Spectrum& mix, S
 }
 
 Spectrum HeterogeneousMedium::transmittance(const Ray& ray, const Sampler& sampler) const {
-  Rng rng = sampler.aside(ray.origin, ray.direction);
+  Rng rng = sampler.aside(Purpose::kAttenuation, ray.origin, ray.direction);
   Spectrum estimate(1.0f);                 // of what exceeds the minorants
   constexpr float kRouletteBelow = 0.01f;  // what is left may end at random
   Spectrum control(0.0f);                  // optical depth of the minorants

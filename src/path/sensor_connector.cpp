@@ -90,7 +90,7 @@ std::optional<SensorArrival> SensorConnector::arrive_from(const Emission& emissi
 /// The sky behind everything: an edge from infinity.
 std::optional<SensorArrival> SensorConnector::arrive_from_sky(const Emission& emission) const {
   const Vec3 towards = -emission.ray.direction;
-  Rng rng = sampler_.aside(towards);
+  Rng rng = sampler_.aside(Purpose::kAperture, towards);
   const auto way = scene_.sensor().connect_to_infinity(towards, next_2d(rng));
   if (!way) return std::nullopt;
   const auto target = target_of(*way);
@@ -126,7 +126,7 @@ std::optional<SplatTarget> SensorConnector::target_of(const SensorConnection& wa
   const bool near = position.x >= -support && position.x <= static_cast<float>(crop_.x) + support &&
                     position.y >= -support && position.y <= static_cast<float>(crop_.y) + support;
   if (!near) return std::nullopt;
-  Rng rng = sampler_.aside(way.position, Vec3(way.film.x, way.film.y, 0));
+  Rng rng = sampler_.aside(Purpose::kSplat, way.position, Vec3(way.film.x, way.film.y, 0));
   const SplatTarget target = choose_pixel(film_.filter, position, next_2d(rng));
   const Vec2i& pixel = target.pixel;
   if (target.weight == 0 || pixel.x < 0 || pixel.y < 0 || pixel.x >= crop_.x || pixel.y >= crop_.y) return std::nullopt;

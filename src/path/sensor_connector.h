@@ -30,7 +30,7 @@ class SensorConnector {
   }
   /// Those with which way_from chooses the point of the aperture.
   Vec2 aperture_numbers(const Vec3& p) const {
-    Rng rng = sampler_.aside(p);
+    Rng rng = sampler_.aside(Purpose::kAperture, p);
     return next_2d(rng);
   }
   /// The directions from a point of the aperture in which pixels look. Only for sensors with an aperture.

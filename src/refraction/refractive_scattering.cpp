@@ -41,8 +41,7 @@ class RefractiveScattering::Gathering {
         throughput_(throughput),
         sampler_(sampler),
         counters_(counters),
-        // Not along the flight: those numbers are the attenuation's, where the medium differs from place to place.
-        rng_(sampler.aside(flight.origin, -flight.direction)),
+        rng_(sampler.aside(Purpose::kRefractedLight, flight.origin, flight.direction)),
         segment_{{V3d(flight.origin), V3d(flight.direction).normalized()}, 0, static_cast<double>(flight.t_max)} {}
 
   Spectrum run() {

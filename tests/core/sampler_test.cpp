@@ -45,6 +45,26 @@ TEST(Sampler, ReplaysASampleByItsName) {
   }
 }
 
+TEST(Sampler, AsideDependsOnPurposePlaceAndDirectionAlone) {
+  Sampler sampler(SamplerKind::kIndependent, 5), other(SamplerKind::kIndependent, 5);
+  sampler.start(3, 4);
+  other.start(3, 4);
+  other.next_2d();
+  const Vec3 place(1, 2, 3), direction(0, 0.6f, 0.8f);
+  std::set<uint32_t> seen;
+  for (const Purpose purpose : {Purpose::kAttenuation, Purpose::kAperture, Purpose::kLightsOfPlace})
+    for (const Vec3& p : {place, -place})
+      for (const Vec3& d : {direction, -direction, Vec3(0)}) {
+        Rng rng = sampler.aside(purpose, p, d), again = other.aside(purpose, p, d);
+        for (int i = 0; i < 10; ++i) {
+          const uint32_t value = rng.next_u32();
+          EXPECT_EQ(value, again.next_u32());
+          seen.insert(value);
+        }
+      }
+  EXPECT_EQ(seen.size(), 180u);
+}
+
 /// Counts how many cells of an nx x ny grid hold exactly one of nx * ny points.
 template <class Point>
 size_t cells_hit(size_t nx, size_t ny, const Point& point) {

@@ -17,8 +17,9 @@ FoggyBox& box() {
 }
 
 /// A cache whose records are what lights would bring without shadows, where `dark` says so none.
-std::unique_ptr<LightSampler> make_cache(const VirtualLights& places, size_t dark = 1000) {
+std::unique_ptr<LightSampler> make_cache(const VirtualLights& places, const CacheShares& shares, size_t dark = 1000) {
   CacheSettings settings;
+  settings.shares = shares;
   settings.points = {places.size(), places.size(), 0};
   return std::make_unique<ImportanceCache>(
       settings, box().lights.size(), std::array{0.1f, 0.0f, 0.0f},
@@ -28,7 +29,8 @@ std::unique_ptr<LightSampler> make_cache(const VirtualLights& places, size_t dar
         for (size_t i = 0; i < weights.size(); ++i)
           weights[i] = number % dark == dark - 1 ? 0 : unshadowed(place, box().lights.points()[i], {}).mean();
         return ImportanceCache::Record{place.position(), place.is_surface() ? place.normal() : Vec3(0), true};
-      });
+      },
+      std::make_unique<NearLights>(box().lights, LineSettings{}));
 }
 
 struct NamedSampler {
@@ -41,9 +43,11 @@ std::vector<NamedSampler> samplers(const VirtualLights& cached) {
   all.push_back({"uniform", std::make_unique<UniformLightSampler>(lights.size())});
   all.push_back({"power", std::make_unique<PowerLightSampler>(lights)});
   all.push_back({"lfg", std::make_unique<UnshadowedLightSampler>(lights, LineSettings{})});
-  all.push_back({"light tree", std::make_unique<LightTree>(lights)});
-  all.push_back({"cache", make_cache(cached)});
-  all.push_back({"cache with dark points", make_cache(cached, 2)});
+  all.push_back({"light tree", std::make_unique<LightTree>(lights, LineSettings{})});
+  all.push_back({"light tree, clamped", std::make_unique<LightTree>(lights, LineSettings{.clamp_distance = 1})});
+  all.push_back({"cache", make_cache(cached, CacheShares{})});
+  all.push_back({"cache with dark points", make_cache(cached, CacheShares{}, 2)});
+  all.push_back({"cache as in the seed", make_cache(cached, CacheShares::seed(3), 2)});
   return all;
 }
 

@@ -136,6 +136,7 @@ TEST(SegmentPairs, VectorFunctionsAreExact) {
     EXPECT_NEAR(exp_lanes(x)[0] / std::exp(x), 1, 3e-7f) << x;
     const float positive = std::exp(x), angle = (x + 20) / 40 * kPi;
     EXPECT_NEAR(log_lanes(positive)[0], std::log(positive), 2e-6f) << x;
+    EXPECT_NEAR(inverse_sqrt_lanes(positive)[0] * std::sqrt(positive), 1, 5e-7f) << x;
     EXPECT_NEAR(sine_cosine_lanes(angle).sine[0], std::sin(angle), 2e-7f) << x;
     const float small = std::exp(-std::abs(x));
     EXPECT_NEAR(sine_cosine_lanes(small).sine[0] / std::sin(small), 1, 5e-7f) << x;
