@@ -17,6 +17,36 @@ PixelSample trace(const Scene& scene, const PathSettings& settings, const Connec
   return sample;
 }
 
+/// Leaves to the table what it has, and looks it up at each first collision of a visit.
+class TableGatherer : public LightGatherer {
+ public:
+  TableGatherer(const Scene& scene, const PathSettings& settings, const TableLight& table,
+                const std::vector<EnteringLight>& lights, Sampler& sampler, SampleCounters& counters)
+      : LightGatherer(scene, settings, {}, nullptr, sampler, counters),
+        settings_(settings),
+        table_(table),
+        lights_(lights),
+        sampler_(sampler) {}
+
+  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+    ended_ = table_.has_counted(&event.medium, state.visit_order);
+    if (ended_) return;
+    LightGatherer::at_collision(event, state, traveller);
+    if (state.visit_order != 1) return;
+    Rng rng = sampler_.aside(event.position, event.direction);
+    for (const EnteringLight& light : lights_)
+      add(table_.from_order(), table_.at_collision(light, event, state, settings_, rng));
+  }
+  bool goes_on() const { return !ended_; }
+
+ private:
+  const PathSettings& settings_;
+  const TableLight& table_;
+  const std::vector<EnteringLight>& lights_;
+  Sampler& sampler_;
+  bool ended_ = false;
+};
+
 using Kind = PathTracer::Kind;
 
 IntegratorSetup make_surfaces(const Properties& properties) {
@@ -27,13 +57,34 @@ IntegratorSetup make_surfaces(const Properties& properties) {
 
 PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                         SampleCounters& counters) const {
+  if (table_) return trace_with_table(scene, camera, sampler, counters);
   return kind_ == Kind::kVolumes
              ? trace<true>(scene, settings_, connection_, scattering_.get(), camera, sampler, counters)
              : trace<false>(scene, settings_, connection_, nullptr, camera, sampler, counters);
 }
 
+/// One walk from a light for each from the sensor, and all that enters on the one for every visit of the other.
+PixelSample PathTracer::trace_with_table(const Scene& scene, const SensorRay& camera, Sampler& sampler,
+                                         SampleCounters& counters) const {
+  Rng aside = sampler.aside(camera.ray.origin, camera.ray.direction);
+  Sampler light_sampler(SamplerKind::kIndependent, hash_counters(aside.next_u32(), aside.next_u32()));
+  light_sampler.start(0, 0);
+  EnteringLightKeeper keeper(scene, *table_, counters);
+  keeper.begin(aside);
+  LightWalk<EnteringLightKeeper>(scene, settings_, light_sampler, counters, keeper).run(*sources_);
+
+  TableGatherer gatherer(scene, settings_, *table_, keeper.entered(), sampler, counters);
+  const float alpha = CameraWalk<TableGatherer>(scene, settings_, sampler, counters, gatherer).run(camera);
+  PixelSample sample = gatherer.result();
+  sample.alpha = alpha;
+  return sample;
+}
+
 void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
   if (refraction_) scattering_ = std::make_unique<const RefractiveScattering>(scene, *refraction_);
+  if (table_settings_.source == TableSettings::Source::kNone) return;
+  table_ = std::make_unique<const TableLight>(scene, table_settings_);
+  sources_ = std::make_unique<const LightSources>(scene, true);
 }
 
 IntegratorPlugin path_row() {
@@ -58,16 +109,22 @@ IntegratorPlugin volpath_row() {
                      "light that one smooth boundary of triangles bends before it scatters once: found by paths, or as "
                      "singlescatter finds it",
                      {"path", "refractive"}));
+  for (Parameter& parameter : table_parameters()) own.push_back(std::move(parameter));
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
           with_common_parameters(own),
           [](const Properties& properties) {
             const bool refractive = properties.string("single_scattering") == "refractive";
+            const PathSettings path = path_settings(properties);
+            const TableSettings table = table_settings(properties, path);
+            if (table.source != TableSettings::Source::kNone && (refractive || properties.string("nee") != "standard"))
+              properties.refuse("multiple_scattering",
+                                "a table goes with single_scattering = path and nee = standard alone");
             return IntegratorSetup{
                 std::make_shared<PathTracer>(
-                    Kind::kVolumes, path_settings(properties), connection_settings(properties, "nee"),
-                    refractive ? std::optional<RefractiveSettings>(std::in_place) : std::nullopt),
+                    Kind::kVolumes, path, connection_settings(properties, "nee"),
+                    refractive ? std::optional<RefractiveSettings>(std::in_place) : std::nullopt, table),
                 false};
           }};
 }

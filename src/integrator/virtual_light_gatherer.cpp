@@ -8,6 +8,9 @@ Spectrum LightLines::shadowed(const Scatterer& place, const Scatterer& light, co
   const Spectrum value = unshadowed(place, light, settings_);
   if (value.is_black()) return value;
   const Vec3 wi = normalize(light.position() - place.position());
+  if (table_ && place.medium() &&
+      table_->has_counted(place.medium(), place.visit_order_towards(wi) + light.visit_order_towards(-wi)))
+    return Spectrum(0.0f);
   const Ray line = line_between(place.leave(wi), light.leave(-wi));
   if (!place.is_surface()) return value * traveller.look_along(line, Spectrum(1.0f)).transmittance;
   const SurfaceEvent surface = *place.vertex().surface_event();
@@ -70,6 +73,10 @@ void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, cons
                     else
                       shade(event, at, traveller);
                   });
+  if (entering_ && std::isfinite(way.t_max)) {
+    Rng rng = sampler_.aside(way.origin, -way.direction);
+    add(kOrderClasses, entering_->along(way, medium, state, plan_.table_samples, rng));
+  }
   const HomogeneousMedium* homogeneous = medium.as_homogeneous();
   if (!plan_.rays || !(way.t_max > 0) || !std::isfinite(way.t_max) || state.throughput.is_black()) return;
   if (homogeneous && homogeneous->sigma_s().is_black()) return;

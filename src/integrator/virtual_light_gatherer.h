@@ -1,4 +1,5 @@
 #pragma once
+#include "integrator/entering_lights.h"
 #include "integrator/light_gatherer.h"
 #include "manylight/light_sampler.h"
 #include "manylight/segment_pairs.h"
@@ -17,14 +18,16 @@ struct ShadingPlan {
   /// Lights shade whole ways of the sensor's walk at once (ray lights); volume_points are then for lights asked for
   /// directly.
   bool rays = false;
+  const TableLight* table = nullptr;  ///< what multiple scattering is found by; null: virtual lights
+  int table_samples = 4;              ///< entering lights asked for at each place or way
 };
 
 /// Estimates of what one virtual light brings to places, with what stands between; black where nothing comes. For point
 /// lights at a place there is nothing to draw.
 class LightLines {
  public:
-  LightLines(const VirtualLights& lights, const LineSettings& settings, const Sampler& sampler)
-      : lights_(lights), settings_(settings), sampler_(sampler) {}
+  LightLines(const VirtualLights& lights, const ShadingPlan& plan, const Sampler& sampler)
+      : lights_(lights), settings_(plan.lines), table_(plan.table), sampler_(sampler) {}
 
   /// `traveller` stands at the place.
   Spectrum to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const;
@@ -59,6 +62,7 @@ class LightLines {
 
   const VirtualLights& lights_;
   const LineSettings& settings_;
+  const TableLight* table_;
   const Sampler& sampler_;
 };
 
@@ -67,19 +71,21 @@ class LightLines {
 /// former as in `volpath`.
 class VirtualLightGatherer : public ShadingRecorder {
  public:
-  /// `chooser` null: every light is asked.
-  VirtualLightGatherer(Kind kind, const ShadingPlan& plan, const VirtualLights& lights, LightSampler::Chooser* chooser,
-                       Sampler& sampler, SampleCounters& counters)
+  /// `chooser` null: every light is asked. `entering`: for plan.table.
+  VirtualLightGatherer(Kind kind, const ShadingPlan& plan, const VirtualLights& lights, const EnteringLights* entering,
+                       LightSampler::Chooser* chooser, Sampler& sampler, SampleCounters& counters)
       : ShadingRecorder(kind),
         plan_(plan),
         lights_(lights),
-        lines_(lights, plan.lines, sampler),
+        entering_(entering),
+        lines_(lights, plan, sampler),
         chooser_(chooser),
         sampler_(sampler),
         counters_(counters) {}
 
   void begin() {
     ShadingRecorder::begin();
+    counted_ = false;
     direct_.emplace(plan_.scene, plan_.path, ConnectionSettings{}, nullptr, sampler_, counters_);
     for (Spectrum& light : by_order_) light = Spectrum(0.0f);
   }
@@ -90,8 +96,10 @@ class VirtualLightGatherer : public ShadingRecorder {
   void passed_medium(const Spectrum& proxy) { direct_->passed_medium(proxy); }
   void passed_surface(const Spectrum& through) { direct_->passed_surface(through); }
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-    if (shades()) shade(event, state, traveller);
+    counted_ = plan_.table && plan_.table->has_counted(&event.medium, state.visit_order);
+    if (shades() && !counted_) shade(event, state, traveller);
   }
+  bool goes_on() const { return !counted_ && ShadingRecorder::goes_on(); }
   void left_collision(const CollisionEvent& event, float mu, const Vec3& chosen, const PathState& state,
                       const Traveller& traveller) {
     direct_->left_collision(event, mu, chosen, state, traveller);
@@ -119,6 +127,9 @@ class VirtualLightGatherer : public ShadingRecorder {
   void shade(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
     direct_->at_collision(event, state, traveller);
     ask_virtual_lights(Vertex(event, state), traveller);
+    if (!entering_) return;
+    Rng rng = sampler_.aside(event.position, -event.direction);
+    add(kOrderClasses, entering_->at_collision(event, state, plan_.table_samples, rng));
   }
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
   void ask_along(const CollisionSegment& way, const Traveller& traveller);
@@ -130,6 +141,8 @@ class VirtualLightGatherer : public ShadingRecorder {
 
   const ShadingPlan& plan_;
   const VirtualLights& lights_;
+  const EnteringLights* entering_;
+  bool counted_ = false;  ///< the walk is where the table has all light
   LightLines lines_;
   LightSampler::Chooser* chooser_;
   Sampler& sampler_;

@@ -12,6 +12,7 @@ CollisionSegment CollisionSegment::of_sensor(const Ray& way, const Medium& mediu
   segment.g_ = medium.phase().mean_cosine();
   segment.depth_ = state.depth + 1;
   segment.order_ = state.order + 1;
+  segment.visit_order_ = state.visit_order + 1;
   return segment;
 }
 
@@ -33,7 +34,7 @@ Scatterer CollisionSegment::place_at(float t, double pdf_t, const Sampler& sampl
   }
   return Scatterer(
       event, PathState{throughput_ * arrives * medium_->sigma_s_at(event.position) * static_cast<float>(1 / pdf_t),
-                       depth_, order_});
+                       depth_, order_, visit_order_});
 }
 
 }  // namespace turbid

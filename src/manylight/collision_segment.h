@@ -22,6 +22,7 @@ class CollisionSegment {
   float g() const { return g_; }
   int depth() const { return depth_; }  ///< of a collision on it
   int order() const { return order_; }
+  int visit_order() const { return visit_order_; }  ///< PathState::visit_order
 
   /// A collision at distance t, with what the walk brings to it per length; times 1 / (density of t).
   /// From a light: flux x sigma_s x T_i(t) / sum mix_j T_j(t), for the segment ends at t or before with the rest of the
@@ -35,7 +36,7 @@ class CollisionSegment {
   const Medium* medium_ = nullptr;
   Spectrum throughput_, mix_;
   float g_ = 0;
-  int depth_ = 0, order_ = 0;
+  int depth_ = 0, order_ = 0, visit_order_ = 0;
   bool from_light_ = false;
 };
 
