@@ -117,14 +117,17 @@ Spectrum EnteringLights::along(const Ray& way, const Medium& medium, const PathS
     return Spectrum(0.0f);
   const float free_path = 1 / medium.sigma_t().mean();
   const Vec3 seen = way.at(std::min(way.t_max / 2, free_path));
+  const auto boundary = table_.boundary_behind(seen, way.direction, medium);
   return ask(medium, seen, count, rng,
-             [&](const EnteringLight& light) { return table_.along(light, way, state, path_, rng); });
+             [&](const EnteringLight& light) { return table_.along(light, boundary, way, state, path_, rng); });
 }
 
 Spectrum EnteringLights::at_collision(const CollisionEvent& event, const PathState& state, int count, Rng& rng) const {
   if (state.visit_order != 1 || state.throughput.is_black() || !table_.holds(&event.medium)) return Spectrum(0.0f);
-  return ask(event.medium, event.position, count, rng,
-             [&](const EnteringLight& light) { return table_.at_collision(light, event, state, path_, rng); });
+  const auto boundary = table_.boundary_behind(event.position, event.direction, event.medium);
+  return ask(event.medium, event.position, count, rng, [&](const EnteringLight& light) {
+    return table_.at_collision(light, boundary, event, state, path_, rng);
+  });
 }
 
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) {

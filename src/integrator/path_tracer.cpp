@@ -33,9 +33,11 @@ class TableGatherer : public LightGatherer {
     if (ended_) return;
     LightGatherer::at_collision(event, state, traveller);
     if (state.visit_order != 1) return;
+    if (lights_.empty()) return;
+    const auto boundary = table_.boundary_behind(event.position, event.direction, event.medium);
     Rng rng = sampler_.aside(event.position, event.direction);
     for (const EnteringLight& light : lights_)
-      add(table_.from_order(), table_.at_collision(light, event, state, settings_, rng));
+      add(table_.from_order(), table_.at_collision(light, boundary, event, state, settings_, rng));
   }
   bool goes_on() const { return !ended_; }
 

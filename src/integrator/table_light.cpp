@@ -21,7 +21,11 @@ std::vector<Parameter> table_parameters() {
            ParameterType::kInteger,
            "3",
            "collisions in one visit from which on the table has them",
-           {.min = 3, .max = 5}}};
+           {.min = 3, .max = 5}},
+          word("boundary", "none",
+               "what becomes of the table's light at the boundary of the medium: none (it goes on as if the medium had "
+               "no end), image (a mirrored source at the boundary next to the sensor's path corrects it)",
+               {"none", "image"})};
 }
 
 TableSettings table_settings(const Properties& properties, const PathSettings& path) {
@@ -30,6 +34,8 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
   settings.from_order = static_cast<int>(properties.integer("from_order"));
   if (source == "path") return settings;
   settings.source = source == "table" ? TableSettings::Source::kTable : TableSettings::Source::kModel;
+  settings.images = properties.string("boundary") == "image";
+  if (settings.images && source == "model") properties.refuse("boundary", "the model is that of a medium without end");
   const std::string whole =
       fmt::format("the table holds all orders from {} on at once (from_order): ", settings.from_order);
   if (path.max_scattering != PathSettings::kUnlimited && path.max_scattering >= settings.from_order)
@@ -56,6 +62,7 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
       log_warning(fmt::format("multiple scattering in a medium is left to the method: {}", error.what()));
     }
   }
+  if (settings.images) boundaries_.emplace(scene, media());
 }
 
 std::vector<const Medium*> TableLight::media() const {
@@ -70,37 +77,43 @@ const TableLight::Entry* TableLight::find(const Medium* medium) const {
   return nullptr;
 }
 
-Spectrum TableLight::source_radiance(const EnteringLight& light, const Vec3& x, const Vec3& w, Rng& rng) const {
+Spectrum TableLight::source_radiance(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary,
+                                     const Vec3& x, const Vec3& w, Rng& rng) const {
   const Entry* entry = find(light.medium);
   if (!entry) return Spectrum(0.0f);
+  if (boundary) return light.flux * entry->scattering->source_radiance(images_of(light.way, *boundary), x, w);
   return light.flux * (entry->scattering
                            ? entry->scattering->source_radiance(light.way, x, w)
                            : walk_source_radiance(*entry->medium, settings_.from_order, light.way, x, w, rng));
 }
 
-Spectrum TableLight::at_collision(const EnteringLight& light, const CollisionEvent& event, const PathState& state,
-                                  const PathSettings& path, Rng& rng) const {
+Spectrum TableLight::at_collision(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary,
+                                  const CollisionEvent& event, const PathState& state, const PathSettings& path,
+                                  Rng& rng) const {
   if (light.medium != &event.medium || !counts(light, state.depth, state.order, path)) return Spectrum(0.0f);
   // The walk's own albedo is in the table too: what remains is transmittance over density.
   const Spectrum sigma_s = event.medium.sigma_s_at(event.position);
-  const Spectrum source = source_radiance(light, event.position, -event.direction, rng);
+  const Spectrum source = source_radiance(light, boundary, event.position, -event.direction, rng);
   Spectrum result(0.0f);
   for (int c = 0; c < kChannels; ++c)
     if (sigma_s[c] > 0) result[c] = state.throughput[c] * source[c] / sigma_s[c];
   return result;
 }
 
-Spectrum TableLight::along(const EnteringLight& light, const Ray& way, const PathState& state, const PathSettings& path,
-                           Rng& rng) const {
+Spectrum TableLight::along(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary, const Ray& way,
+                           const PathState& state, const PathSettings& path, Rng& rng) const {
   const Entry* entry = find(light.medium);
   if (!entry || !counts(light, state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
-  if (entry->scattering)
+  const Stretch view{way.origin, way.direction, way.t_max};
+  if (entry->scattering && boundary)
     return state.throughput * light.flux *
-           entry->scattering->radiance(light.way, {way.origin, way.direction, way.t_max}, rng.next_float(), 1);
+           entry->scattering->radiance(images_of(light.way, *boundary), view, rng.next_float(), 1);
+  if (entry->scattering)
+    return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);
   const auto at = collide_before(*entry->medium, way.t_max, channel_mix(state.throughput), rng.next_float());
   if (!std::isfinite(at.t) || !(at.pdf_t > 0)) return Spectrum(0.0f);
   return state.throughput * entry->medium->transmittance(at.t) / at.pdf_t *
-         source_radiance(light, way.at(at.t), -way.direction, rng);
+         source_radiance(light, boundary, way.at(at.t), -way.direction, rng);
 }
 
 void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const PathState& state,

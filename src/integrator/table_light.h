@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "integrator/boundary_images.h"
 #include "integrator/integrator_plugin.h"
 #include "path/path_settings.h"
 #include "path/visit_roulette.h"
@@ -19,12 +20,13 @@ struct TableSettings {
     kModel   ///< the same by random walks in an endless medium: the reference of the table, noisy
   };
   Source source = Source::kNone;
-  int from_order = 3;  ///< collisions in one visit from which on the table has them: 3, 4 or 5
+  int from_order = 3;   ///< collisions in one visit from which on the table has them: 3, 4 or 5
+  bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
   TableRequest request;
 };
 
-/// The integrators' parameters `multiple_scattering` and `from_order`, and what they say. Refuses limits of depth and
-/// order that a sum over all orders cannot keep. Throws SceneError.
+/// The integrators' parameters `multiple_scattering`, `from_order` and `boundary`, and what they say. Refuses limits of
+/// depth and order that a sum over all orders cannot keep. Throws SceneError.
 std::vector<Parameter> table_parameters();
 TableSettings table_settings(const Properties& properties, const PathSettings& path);
 
@@ -61,16 +63,23 @@ class TableLight {
     return visit_order >= settings_.from_order && holds(medium);
   }
 
+  /// The boundary that light is corrected by where a walk from the sensor is at x in the medium, having come along
+  /// `direction`; empty where it is not.
+  std::optional<BoundaryPlane> boundary_behind(const Vec3& x, const Vec3& direction, const Medium& medium) const {
+    return boundaries_ ? boundaries_->behind(x, direction, medium) : std::nullopt;
+  }
+
   /// What scatters at x towards w (unit) for the last time, 1/sr per volume: W/(sr m^3). `rng`: for kModel alone.
-  Spectrum source_radiance(const EnteringLight& light, const Vec3& x, const Vec3& w, Rng& rng) const;
+  Spectrum source_radiance(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary, const Vec3& x,
+                           const Vec3& w, Rng& rng) const;
 
   /// The same at the first collision of a visit of the sensor's walk, times what the walk makes of it; black in another
   /// medium, and where even the shortest path of the sum is longer than `path` allows.
-  Spectrum at_collision(const EnteringLight& light, const CollisionEvent& event, const PathState& state,
-                        const PathSettings& path, Rng& rng) const;
+  Spectrum at_collision(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary,
+                        const CollisionEvent& event, const PathState& state, const PathSettings& path, Rng& rng) const;
   /// Along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its beginning.
-  Spectrum along(const EnteringLight& light, const Ray& way, const PathState& state, const PathSettings& path,
-                 Rng& rng) const;
+  Spectrum along(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary, const Ray& way,
+                 const PathState& state, const PathSettings& path, Rng& rng) const;
 
  private:
   struct Entry {
@@ -86,6 +95,7 @@ class TableLight {
 
   TableSettings settings_;
   std::vector<Entry> entries_;
+  std::optional<Boundaries> boundaries_;
 };
 
 /// Keeps the light of walks from lights that has entered media with tables.
