@@ -212,6 +212,14 @@ double SensorSubpath::others_of_direct(const Vertex& vertex, const EmitterChoice
                                   merged_at(weights_, vertex, light.wi));
 }
 
+/// Both ends are in the midst of a visit to one medium: together they have made so many collisions there.
+bool SensorSubpath::visit_counts(const Vertex& vertex, const Vertex& light) const {
+  if (context_.settings.limited_media.empty()) return true;
+  const Vec3 way = light.position - vertex.position;
+  return context_.settings.visit_counts(vertex.medium_towards(way),
+                                        vertex.visit_order_towards(way) + light.visit_order_towards(-way));
+}
+
 /// Of the lines that make paths of k edges min(1, connections / k) are taken, systematically: the number does not
 /// depend on how far the light's subpath was followed.
 void SensorSubpath::join(const Vertex& vertex, const Traveller& traveller) {
@@ -223,7 +231,7 @@ void SensorSubpath::join(const Vertex& vertex, const Traveller& traveller) {
     if (sum < 1) continue;
     sum -= 1;
     if (edges > context_.settings.max_depth) return;
-    if (!context_.settings.order_counts(vertex.order + light.order)) continue;
+    if (!context_.settings.order_counts(vertex.order + light.order) || !visit_counts(vertex, light)) continue;
     ++context_.counters.connections;
     const auto joined = turbid::join(context_.scene, weights_, vertex, light, traveller);
     if (joined)

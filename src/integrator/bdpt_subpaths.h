@@ -77,6 +77,7 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
   void connect(const Vertex& vertex, const Traveller& traveller);
 
   const BdptContext& context_;
+  Sampler& sampler_;
   ContributionSink* sink_ = nullptr;
 
  private:
@@ -87,8 +88,8 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
   double others_of_direct(const Vertex& vertex, const EmitterChoice& choice, const DirectLightSample& light,
                           const Vertex::Scattering& scattered, const Spectrum& proxy) const;
   void join(const Vertex& vertex, const Traveller& traveller);
+  bool visit_counts(const Vertex& vertex, const Vertex& light) const;
 
-  Sampler& sampler_;
   const std::vector<Vertex>& light_vertices_;
   Vec2 u_aperture_;
   Rng selection_;

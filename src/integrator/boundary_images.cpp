@@ -41,27 +41,45 @@ Boundaries::Boundaries(const Scene& scene, const std::vector<const Medium*>& med
   }
 }
 
-std::optional<BoundaryPlane> Boundaries::behind(const Vec3& x, const Vec3& direction, const Medium& medium) const {
-  const Ray back{x, -direction};
-  const Hit hit = scene_.rays().intersect(back);
+std::optional<BoundaryPlane> Boundaries::towards(const Ray& line, const Medium& medium) const {
+  const Hit hit = scene_.rays().intersect(line);
   if (!hit) return std::nullopt;
-  const SurfacePoint point = scene_.object(hit).shape->surface_point(back, hit);
-  const bool inside = !leads_outside(point.ng, direction);
+  const SurfacePoint point = scene_.object(hit).shape->surface_point(line, hit);
+  const bool inside = leads_outside(point.ng, line.direction);
   const float g = medium.phase().mean_cosine();
   const float diffusion = 1 / (3 * (medium.sigma_t().mean() - g * medium.sigma_s().mean()));
   return BoundaryPlane{point.p, inside ? point.ng : -point.ng,
                        2 * (inside ? factors_ : outer_factors_)[hit.shape] * diffusion};
 }
 
-std::vector<WeightedStretch> images_of(const Stretch& light, const BoundaryPlane& plane) {
-  const Vec3& n = plane.normal;
-  const Vec3 origin = light.origin - n * (2 * dot(light.origin - plane.point, n));
-  const Vec3 direction = light.direction - n * (2 * dot(light.direction, n));
+BoundaryPlanes Boundaries::around(const Vec3& x, const Vec3& direction, const Medium& medium) const {
+  BoundaryPlanes planes;
+  const auto behind = towards({x, -direction}, medium);
+  if (behind) planes.push_back(*behind);
+  // Beyond this little light comes back: some times the length that diffuse light reaches before it is absorbed, and
+  // the depth from which light that is not comes out.
+  constexpr float kFar = 12;
+  const float reduced = medium.sigma_t().mean() - medium.phase().mean_cosine() * medium.sigma_s().mean();
+  auto before = towards({x, direction, kFar / reduced}, medium);
+  if (!before) return planes;
+  if (behind) before->share = std::max(0.0f, -dot(behind->normal, before->normal));
+  if (before->share > 0) planes.push_back(*before);
+  return planes;
+}
+
+std::vector<WeightedStretch> images_of(const Stretch& light, const BoundaryPlanes& planes) {
   // The line of images by two nodes of Gauss-Laguerre quadrature.
   constexpr float kNode[] = {0.5857864f, 3.4142136f}, kWeight[] = {0.8535534f, 0.1464466f};
-  std::vector<WeightedStretch> images = {{light, 1}, {{origin, direction, light.length}, 1}};
-  for (int i = 0; i < 2; ++i)
-    images.push_back({{origin + n * (kNode[i] * plane.extrapolation), direction, light.length}, -2 * kWeight[i]});
+  std::vector<WeightedStretch> images = {{light, 1}};
+  for (const BoundaryPlane& plane : planes) {
+    const Vec3& n = plane.normal;
+    const Vec3 origin = light.origin - n * (2 * dot(light.origin - plane.point, n));
+    const Vec3 direction = light.direction - n * (2 * dot(light.direction, n));
+    images.push_back({{origin, direction, light.length}, plane.share});
+    for (int i = 0; i < 2; ++i)
+      images.push_back(
+          {{origin + n * (kNode[i] * plane.extrapolation), direction, light.length}, -2 * kWeight[i] * plane.share});
+  }
   return images;
 }
 

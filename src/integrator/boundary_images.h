@@ -11,7 +11,9 @@ namespace turbid {
 struct BoundaryPlane {
   Vec3 point, normal;   ///< normal: unit, out of the medium
   float extrapolation;  ///< how far outside of it the fluence would fall to 0, 2 A D; a length
+  float share = 1;      ///< how much of its images counts
 };
+using BoundaryPlanes = std::vector<BoundaryPlane>;
 
 /// Where the boundaries of media are, and what they do to diffuse light.
 ///
@@ -26,17 +28,19 @@ class Boundaries {
   /// `media`: that planes are asked for. The scene must stay.
   Boundaries(const Scene& scene, const std::vector<const Medium*>& media);
 
-  /// The boundary that a walk through the medium has entered by, seen from x back along its direction; empty where
-  /// there is none.
-  std::optional<BoundaryPlane> behind(const Vec3& x, const Vec3& direction, const Medium& medium) const;
+  /// The boundaries behind and before a walk through the medium, seen from x along its direction. That before it counts
+  /// as far as it faces the other: where a walk grazes the boundary both are the same.
+  BoundaryPlanes around(const Vec3& x, const Vec3& direction, const Medium& medium) const;
 
  private:
+  std::optional<BoundaryPlane> towards(const Ray& line, const Medium& medium) const;
+
   const Scene& scene_;
   std::vector<float> factors_;        ///< A of each object, seen from inside
   std::vector<float> outer_factors_;  ///< ... from outside
 };
 
-/// The light of a stretch by the plane: it and its images. Four stretches.
-std::vector<WeightedStretch> images_of(const Stretch& light, const BoundaryPlane& plane);
+/// The light of a stretch with its images by the planes. Images of images are left out.
+std::vector<WeightedStretch> images_of(const Stretch& light, const BoundaryPlanes& planes);
 
 }  // namespace turbid

@@ -17,7 +17,7 @@ constexpr float kByStrength = 0.1f;
 PathSettings all_orders(PathSettings settings) {
   settings.min_scattering = 0;
   settings.max_scattering = PathSettings::kUnlimited;
-  return settings;
+  return without_visit_limit(settings);
 }
 
 std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
@@ -44,6 +44,20 @@ std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, u
 }
 
 }  // namespace
+
+std::vector<Parameter> entering_parameters() {
+  std::vector<Parameter> parameters = table_parameters();
+  parameters.push_back({"entering_lights", ParameterType::kInteger, "1000",
+                        "about so many ways of light in a set that tables begin with", kAtLeastOne});
+  parameters.push_back({"table_samples", ParameterType::kInteger, "4",
+                        "of these asked for at each place, or on each way, of the sensor's walks", kAtLeastOne});
+  return parameters;
+}
+
+EnteringLightsSettings entering_settings(const Properties& properties) {
+  const auto count = [&](const char* name) { return std::min<int64_t>(properties.integer(name), int64_t{1} << 30); };
+  return {static_cast<size_t>(count("entering_lights")), static_cast<int>(count("table_samples"))};
+}
 
 EnteringLights::Group::Group(const HomogeneousMedium* m) : medium(m) {
   const float g = m->phase().mean_cosine(), sigma_t = m->sigma_t().mean();
@@ -117,16 +131,16 @@ Spectrum EnteringLights::along(const Ray& way, const Medium& medium, const PathS
     return Spectrum(0.0f);
   const float free_path = 1 / medium.sigma_t().mean();
   const Vec3 seen = way.at(std::min(way.t_max / 2, free_path));
-  const auto boundary = table_.boundary_behind(seen, way.direction, medium);
+  const auto boundaries = table_.boundaries_around(seen, way.direction, medium);
   return ask(medium, seen, count, rng,
-             [&](const EnteringLight& light) { return table_.along(light, boundary, way, state, path_, rng); });
+             [&](const EnteringLight& light) { return table_.along(light, boundaries, way, state, path_, rng); });
 }
 
 Spectrum EnteringLights::at_collision(const CollisionEvent& event, const PathState& state, int count, Rng& rng) const {
   if (state.visit_order != 1 || state.throughput.is_black() || !table_.holds(&event.medium)) return Spectrum(0.0f);
-  const auto boundary = table_.boundary_behind(event.position, event.direction, event.medium);
+  const auto boundaries = table_.boundaries_around(event.position, event.direction, event.medium);
   return ask(event.medium, event.position, count, rng, [&](const EnteringLight& light) {
-    return table_.at_collision(light, boundary, event, state, path_, rng);
+    return table_.at_collision(light, boundaries, event, state, path_, rng);
   });
 }
 

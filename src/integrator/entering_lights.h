@@ -3,6 +3,14 @@
 
 namespace turbid {
 
+struct EnteringLightsSettings {
+  size_t lights = 1000;  ///< about so many in a set
+  int samples = 4;       ///< of these asked for at each place or way
+};
+/// The parameters of tables (table_parameters) and of these settings, and what the latter say.
+std::vector<Parameter> entering_parameters();
+EnteringLightsSettings entering_settings(const Properties& properties);
+
 /// What walks that make EnteringLights share.
 struct EnteringLightsPlan {
   const Scene& scene;

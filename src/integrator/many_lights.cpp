@@ -20,7 +20,7 @@ constexpr uint64_t kCacheStream = 0x6361636865ull, kScatteringStream = 0x7363617
 PathSettings all_orders(PathSettings settings) {
   settings.min_scattering = 0;
   settings.max_scattering = PathSettings::kUnlimited;
-  return settings;
+  return without_visit_limit(settings);
 }
 
 bool scatters(const Scene& scene) {
@@ -92,9 +92,12 @@ std::unique_ptr<SplattingIntegrator::Worker> ManyLights::make_worker(const Scene
 void ManyLights::prepare_workers(const Scene& scene) {
   sources_.emplace(scene, true);
   own_.lines.max_depth = path_.max_depth;
-  if (own_.table.source != TableSettings::Source::kNone) table_ = std::make_unique<const TableLight>(scene, own_.table);
-  plan_.emplace(ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.rays, table_.get(),
-                            own_.table_samples});
+  if (own_.table.source != TableSettings::Source::kNone) {
+    table_ = std::make_unique<const TableLight>(scene, own_.table);
+    table_->limit(path_);
+  }
+  plan_.emplace(
+      ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.rays, own_.entering.samples});
   set_.reset();
   paths_ = 0;
 }
@@ -112,7 +115,7 @@ bool ManyLights::prepare_round(const Scene& scene, uint64_t seed, uint64_t index
   }
   if (paths_ == 0 || paths_seed_ != seed) {
     paths_ = paths_for_lights(lights, own_.lights);
-    if (entering) entering_paths_ = paths_for_entering_lights(*entering, own_.entering_lights);
+    if (entering) entering_paths_ = paths_for_entering_lights(*entering, own_.entering.lights);
     paths_seed_ = seed;
   }
   set_.reset();

@@ -18,8 +18,7 @@ struct ManyLightsSettings {
   VolumePoints volume_points;
   CacheSettings caches;
   TableSettings table;
-  size_t entering_lights = 1000;  ///< about so many in a set, of tables
-  int table_samples = 4;          ///< see ShadingPlan
+  EnteringLightsSettings entering;
 };
 
 /// Rendering by virtual point lights (Keller 1997) and ray lights (Novak et al. 2012): light paths leave lights where

@@ -57,13 +57,8 @@ std::vector<Parameter> parameters(bool rays) {
        kNonNegative},
       {"least_distance", ParameterType::kFloat, "0",
        "virtual lights nearer than this are left out, for comparisons; 0: all count", kNonNegative}};
-  if (rays) {
-    for (Parameter& parameter : table_parameters()) own.push_back(std::move(parameter));
-    own.push_back({"entering_lights", ParameterType::kInteger, "1000",
-                   "about so many ways of light in a set that tables begin at", kAtLeastOne});
-    own.push_back({"table_samples", ParameterType::kInteger, "4", "of these asked for on each way through a medium",
-                   kAtLeastOne});
-  }
+  if (rays)
+    for (Parameter& parameter : entering_parameters()) own.push_back(std::move(parameter));
   return with_common_parameters(std::move(own));
 }
 
@@ -87,8 +82,7 @@ ManyLightsSettings settings_of(const Properties& properties, bool rays) {
   own.lines.least_distance = properties.number("least_distance");
   if (!rays) return own;
   own.table = table_settings(properties, path_settings(properties));
-  own.entering_lights = static_cast<size_t>(count("entering_lights"));
-  own.table_samples = count("table_samples");
+  own.entering = entering_settings(properties);
   return own;
 }
 

@@ -17,7 +17,7 @@ PixelSample trace(const Scene& scene, const PathSettings& settings, const Connec
   return sample;
 }
 
-/// Leaves to the table what it has, and looks it up at each first collision of a visit.
+/// Looks the table up at each first collision of a visit.
 class TableGatherer : public LightGatherer {
  public:
   TableGatherer(const Scene& scene, const PathSettings& settings, const TableLight& table,
@@ -29,24 +29,19 @@ class TableGatherer : public LightGatherer {
         sampler_(sampler) {}
 
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-    ended_ = table_.has_counted(&event.medium, state.visit_order);
-    if (ended_) return;
     LightGatherer::at_collision(event, state, traveller);
-    if (state.visit_order != 1) return;
-    if (lights_.empty()) return;
-    const auto boundary = table_.boundary_behind(event.position, event.direction, event.medium);
+    if (state.visit_order != 1 || lights_.empty()) return;
+    const auto boundaries = table_.boundaries_around(event.position, event.direction, event.medium);
     Rng rng = sampler_.aside(event.position, event.direction);
     for (const EnteringLight& light : lights_)
-      add(table_.from_order(), table_.at_collision(light, boundary, event, state, settings_, rng));
+      add(table_.from_order(), table_.at_collision(light, boundaries, event, state, settings_, rng));
   }
-  bool goes_on() const { return !ended_; }
 
  private:
   const PathSettings& settings_;
   const TableLight& table_;
   const std::vector<EnteringLight>& lights_;
   Sampler& sampler_;
-  bool ended_ = false;
 };
 
 using Kind = PathTracer::Kind;
@@ -73,7 +68,8 @@ PixelSample PathTracer::trace_with_table(const Scene& scene, const SensorRay& ca
   light_sampler.start(0, 0);
   EnteringLightKeeper keeper(scene, *table_, counters);
   keeper.begin(aside);
-  LightWalk<EnteringLightKeeper>(scene, settings_, light_sampler, counters, keeper).run(*sources_);
+  const PathSettings from_lights = without_visit_limit(settings_);
+  LightWalk<EnteringLightKeeper>(scene, from_lights, light_sampler, counters, keeper).run(*sources_);
 
   TableGatherer gatherer(scene, settings_, *table_, keeper.entered(), sampler, counters);
   const float alpha = CameraWalk<TableGatherer>(scene, settings_, sampler, counters, gatherer).run(camera);
@@ -86,6 +82,7 @@ void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
   if (refraction_) scattering_ = std::make_unique<const RefractiveScattering>(scene, *refraction_);
   if (table_settings_.source == TableSettings::Source::kNone) return;
   table_ = std::make_unique<const TableLight>(scene, table_settings_);
+  table_->limit(settings_);
   sources_ = std::make_unique<const LightSources>(scene, true);
 }
 

@@ -77,43 +77,44 @@ const TableLight::Entry* TableLight::find(const Medium* medium) const {
   return nullptr;
 }
 
-Spectrum TableLight::source_radiance(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary,
-                                     const Vec3& x, const Vec3& w, Rng& rng) const {
+Spectrum TableLight::source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x,
+                                     const Vec3& w, Rng& rng) const {
   const Entry* entry = find(light.medium);
   if (!entry) return Spectrum(0.0f);
-  if (boundary) return light.flux * entry->scattering->source_radiance(images_of(light.way, *boundary), x, w);
+  if (!boundaries.empty())
+    return light.flux * entry->scattering->source_radiance(images_of(light.way, boundaries), x, w);
   return light.flux * (entry->scattering
                            ? entry->scattering->source_radiance(light.way, x, w)
                            : walk_source_radiance(*entry->medium, settings_.from_order, light.way, x, w, rng));
 }
 
-Spectrum TableLight::at_collision(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary,
+Spectrum TableLight::at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries,
                                   const CollisionEvent& event, const PathState& state, const PathSettings& path,
                                   Rng& rng) const {
   if (light.medium != &event.medium || !counts(light, state.depth, state.order, path)) return Spectrum(0.0f);
   // The walk's own albedo is in the table too: what remains is transmittance over density.
   const Spectrum sigma_s = event.medium.sigma_s_at(event.position);
-  const Spectrum source = source_radiance(light, boundary, event.position, -event.direction, rng);
+  const Spectrum source = source_radiance(light, boundaries, event.position, -event.direction, rng);
   Spectrum result(0.0f);
   for (int c = 0; c < kChannels; ++c)
     if (sigma_s[c] > 0) result[c] = state.throughput[c] * source[c] / sigma_s[c];
   return result;
 }
 
-Spectrum TableLight::along(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary, const Ray& way,
+Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way,
                            const PathState& state, const PathSettings& path, Rng& rng) const {
   const Entry* entry = find(light.medium);
   if (!entry || !counts(light, state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
   const Stretch view{way.origin, way.direction, way.t_max};
-  if (entry->scattering && boundary)
+  if (entry->scattering && !boundaries.empty())
     return state.throughput * light.flux *
-           entry->scattering->radiance(images_of(light.way, *boundary), view, rng.next_float(), 1);
+           entry->scattering->radiance(images_of(light.way, boundaries), view, rng.next_float(), 1);
   if (entry->scattering)
     return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);
   const auto at = collide_before(*entry->medium, way.t_max, channel_mix(state.throughput), rng.next_float());
   if (!std::isfinite(at.t) || !(at.pdf_t > 0)) return Spectrum(0.0f);
   return state.throughput * entry->medium->transmittance(at.t) / at.pdf_t *
-         source_radiance(light, boundary, way.at(at.t), -way.direction, rng);
+         source_radiance(light, boundaries, way.at(at.t), -way.direction, rng);
 }
 
 void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const PathState& state,

@@ -58,28 +58,29 @@ class TableLight {
   std::vector<const Medium*> media() const;
   /// The medium has a table.
   bool holds(const Medium* medium) const { return find(medium) != nullptr; }
-  /// A collision of a walk that the table stands for.
-  bool has_counted(const Medium* medium, int visit_order) const {
-    return visit_order >= settings_.from_order && holds(medium);
+  /// Leaves to the table what it has: for walks from the sensor.
+  void limit(PathSettings& path) const {
+    path.visit_limit = settings_.from_order;
+    path.limited_media = media();
   }
 
-  /// The boundary that light is corrected by where a walk from the sensor is at x in the medium, having come along
-  /// `direction`; empty where it is not.
-  std::optional<BoundaryPlane> boundary_behind(const Vec3& x, const Vec3& direction, const Medium& medium) const {
-    return boundaries_ ? boundaries_->behind(x, direction, medium) : std::nullopt;
+  /// The boundaries that light is corrected by where a walk from the sensor is at x in the medium, having come along
+  /// `direction`; none where it is not.
+  BoundaryPlanes boundaries_around(const Vec3& x, const Vec3& direction, const Medium& medium) const {
+    return boundaries_ ? boundaries_->around(x, direction, medium) : BoundaryPlanes();
   }
 
   /// What scatters at x towards w (unit) for the last time, 1/sr per volume: W/(sr m^3). `rng`: for kModel alone.
-  Spectrum source_radiance(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary, const Vec3& x,
-                           const Vec3& w, Rng& rng) const;
+  Spectrum source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x, const Vec3& w,
+                           Rng& rng) const;
 
   /// The same at the first collision of a visit of the sensor's walk, times what the walk makes of it; black in another
   /// medium, and where even the shortest path of the sum is longer than `path` allows.
-  Spectrum at_collision(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary,
-                        const CollisionEvent& event, const PathState& state, const PathSettings& path, Rng& rng) const;
+  Spectrum at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
+                        const PathState& state, const PathSettings& path, Rng& rng) const;
   /// Along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its beginning.
-  Spectrum along(const EnteringLight& light, const std::optional<BoundaryPlane>& boundary, const Ray& way,
-                 const PathState& state, const PathSettings& path, Rng& rng) const;
+  Spectrum along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way, const PathState& state,
+                 const PathSettings& path, Rng& rng) const;
 
  private:
   struct Entry {
@@ -97,6 +98,12 @@ class TableLight {
   std::vector<Entry> entries_;
   std::optional<Boundaries> boundaries_;
 };
+
+/// For walks from lights.
+inline PathSettings without_visit_limit(PathSettings path) {
+  path.visit_limit = PathSettings::kUnlimited;
+  return path;
+}
 
 /// Keeps the light of walks from lights that has entered media with tables.
 class EnteringLightKeeper : public WalkRecorder {

@@ -2,6 +2,7 @@
 #include <bitset>
 #include <optional>
 
+#include "integrator/entering_lights.h"
 #include "integrator/integrator_plugin.h"
 #include "integrator/splatting_integrator.h"
 #include "photon/photon_gatherer.h"
@@ -22,6 +23,8 @@ struct UpbpSettings {
   int beam_paths = 0;               ///< of these leave beams; 0: a pilot chooses with the techniques, else kBeamPaths
   size_t memory = size_t{1} << 30;  ///< for photons, bytes; about
   bool shows_techniques = false;
+  TableSettings table;
+  EnteringLightsSettings entering;
 
   static constexpr int kBeamPaths = 5000;
   bool uses(Technique technique) const { return techniques[static_cast<size_t>(technique)]; }
@@ -82,7 +85,11 @@ class Upbp : public SplattingIntegrator {
   double bytes_per_path_ = 0;
   bool finds_scale_ = false;  ///< of splats, which needs no photons
 
+  std::unique_ptr<const TableLight> table_;  ///< null: techniques find multiple scattering, too
+  size_t entering_paths_ = 0;
+
   // Of the image that is being made.
+  std::optional<EnteringLights> entering_;
   PhotonSettings leaves_;
   std::optional<StrategyWeights> weights_;
   std::optional<PhotonGatherer> gatherer_;

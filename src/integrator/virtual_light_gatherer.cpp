@@ -8,8 +8,8 @@ Spectrum LightLines::shadowed(const Scatterer& place, const Scatterer& light, co
   const Spectrum value = unshadowed(place, light, settings_);
   if (value.is_black()) return value;
   const Vec3 wi = normalize(light.position() - place.position());
-  if (table_ && place.medium() &&
-      table_->has_counted(place.medium(), place.visit_order_towards(wi) + light.visit_order_towards(-wi)))
+  if (place.medium() &&
+      !path_.visit_counts(place.medium(), place.visit_order_towards(wi) + light.visit_order_towards(-wi)))
     return Spectrum(0.0f);
   const Ray line = line_between(place.leave(wi), light.leave(-wi));
   if (!place.is_surface()) return value * traveller.look_along(line, Spectrum(1.0f)).transmittance;

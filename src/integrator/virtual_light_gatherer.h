@@ -18,8 +18,7 @@ struct ShadingPlan {
   /// Lights shade whole ways of the sensor's walk at once (ray lights); volume_points are then for lights asked for
   /// directly.
   bool rays = false;
-  const TableLight* table = nullptr;  ///< what multiple scattering is found by; null: virtual lights
-  int table_samples = 4;              ///< entering lights asked for at each place or way
+  int table_samples = 4;  ///< entering lights asked for at each place or way, where there are tables
 };
 
 /// Estimates of what one virtual light brings to places, with what stands between; black where nothing comes. For point
@@ -27,7 +26,7 @@ struct ShadingPlan {
 class LightLines {
  public:
   LightLines(const VirtualLights& lights, const ShadingPlan& plan, const Sampler& sampler)
-      : lights_(lights), settings_(plan.lines), table_(plan.table), sampler_(sampler) {}
+      : lights_(lights), settings_(plan.lines), path_(plan.path), sampler_(sampler) {}
 
   /// `traveller` stands at the place.
   Spectrum to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const;
@@ -62,7 +61,7 @@ class LightLines {
 
   const VirtualLights& lights_;
   const LineSettings& settings_;
-  const TableLight* table_;
+  const PathSettings& path_;
   const Sampler& sampler_;
 };
 
@@ -71,7 +70,7 @@ class LightLines {
 /// former as in `volpath`.
 class VirtualLightGatherer : public ShadingRecorder {
  public:
-  /// `chooser` null: every light is asked. `entering`: for plan.table.
+  /// `chooser` null: every light is asked. `entering`: null without tables.
   VirtualLightGatherer(Kind kind, const ShadingPlan& plan, const VirtualLights& lights, const EnteringLights* entering,
                        LightSampler::Chooser* chooser, Sampler& sampler, SampleCounters& counters)
       : ShadingRecorder(kind),
@@ -85,7 +84,6 @@ class VirtualLightGatherer : public ShadingRecorder {
 
   void begin() {
     ShadingRecorder::begin();
-    counted_ = false;
     direct_.emplace(plan_.scene, plan_.path, ConnectionSettings{}, nullptr, sampler_, counters_);
     for (Spectrum& light : by_order_) light = Spectrum(0.0f);
   }
@@ -96,10 +94,8 @@ class VirtualLightGatherer : public ShadingRecorder {
   void passed_medium(const Spectrum& proxy) { direct_->passed_medium(proxy); }
   void passed_surface(const Spectrum& through) { direct_->passed_surface(through); }
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
-    counted_ = plan_.table && plan_.table->has_counted(&event.medium, state.visit_order);
-    if (shades() && !counted_) shade(event, state, traveller);
+    if (shades()) shade(event, state, traveller);
   }
-  bool goes_on() const { return !counted_ && ShadingRecorder::goes_on(); }
   void left_collision(const CollisionEvent& event, float mu, const Vec3& chosen, const PathState& state,
                       const Traveller& traveller) {
     direct_->left_collision(event, mu, chosen, state, traveller);
@@ -142,7 +138,6 @@ class VirtualLightGatherer : public ShadingRecorder {
   const ShadingPlan& plan_;
   const VirtualLights& lights_;
   const EnteringLights* entering_;
-  bool counted_ = false;  ///< the walk is where the table has all light
   LightLines lines_;
   LightSampler::Chooser* chooser_;
   Sampler& sampler_;

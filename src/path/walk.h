@@ -145,6 +145,7 @@ class Walk {
     ++order_;
     ++visit_order_;
     if (++depth_ >= settings_.max_depth || order_ > settings_.max_scattering || throughput_.is_black()) return false;
+    if (!settings_.visit_counts(traveller_.medium(), visit_order_)) return false;
     const CollisionEvent event{traveller_.ray().origin, traveller_.ray().direction, *traveller_.medium()};
     recorder_.at_collision(event, state(), traveller_);
     const Vec2 u = sampler_.next_2d();

@@ -41,6 +41,8 @@ void PhotonGatherer::at_surface(const Vertex& vertex, ContributionSink& sink, Me
     if (!(length_squared(photon.position - vertex.position) < sqr(radii_.surface))) return;
     if (dot(photon.ng, vertex.point.ng) < kSameSurface || !counts(vertex.depth + photon.depth, order)) return;
     const Vec3 wi = -photon.direction;
+    if (vertex.medium && !path_.visit_counts(vertex.medium, vertex.visit_order_towards(wi) + photon.visit_order))
+      return;
     const Vertex::Scattering scattered = vertex.scatter(wi, TransportMode::kRadiance);
     if (scattered.value.is_black()) return;
     const double merged = weights_.merged_at_surface();
@@ -69,7 +71,9 @@ void PhotonGatherer::points_at(const Vertex& vertex, ContributionSink& sink, Mer
     const PhotonPoint& photon = map_.photons.collisions[number];
     const int order = vertex.order - 1 + photon.order;
     if (!(length_squared(photon.position - vertex.position) < sqr(radius))) return;
-    if (photon.medium != &medium || !counts(vertex.depth + photon.depth, order)) return;
+    if (photon.medium != &medium ||
+        !counts(vertex.depth + photon.depth, order, medium, vertex.visit_order - 1 + photon.visit_order))
+      return;
     const float mu = dot(photon.direction, vertex.given);
     const float f = medium.phase().eval(mu);
     const Merges merges = merges_at(weights_, medium, mu);
@@ -93,7 +97,9 @@ void PhotonGatherer::beams_at(const Vertex& vertex, ContributionSink& sink, Merg
   map_.beams_around(vertex.position, [&](uint32_t number, float from, float to) {
     ++work.counters.beam_tests;
     const PhotonBeam& beam = map_.photons.beams[number];
-    if (beam.medium != medium || !counts(vertex.depth + beam.depth + 1, vertex.order + beam.order)) return;
+    if (beam.medium != medium || !counts(vertex.depth + beam.depth + 1, vertex.order + beam.order, *medium,
+                                         vertex.visit_order + beam.visit_order))
+      return;
     const float t = nearest_within(beam.ray(), vertex.position, radius);
     if (t > 0 && t >= from && t < to) work.found.push_back({number, {0, t, 0}});
   });

@@ -69,6 +69,7 @@ class PhotonGatherer {
     LightSegment segment;  ///< `flux`: the walk's throughput
     const HomogeneousMedium& medium;
     int depth, order;  ///< edges and collisions before it
+    int visit_order;   ///< PathState::visit_order
   };
   /// Along a flight: P-B2D, B-B1D. `sums_at(t)`: the walk's StrategySums at distance t.
   template <class SumsAt>
@@ -79,6 +80,9 @@ class PhotonGatherer {
  private:
   /// Does a path of so many edges and collisions count? The collision where it is merged counts on one side only.
   bool counts(int edges, int order) const { return edges <= path_.max_depth && path_.order_counts(order); }
+  bool counts(int edges, int order, const Medium& medium, int visit_order) const {
+    return counts(edges, order) && path_.visit_counts(&medium, visit_order);
+  }
   void at_surface(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
   void points_at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
   void beams_at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
@@ -111,7 +115,9 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
       ++work.counters.point_tests;
       const PhotonPoint& photon = map_.photons.collisions[number];
       const int order = flight.order + photon.order;
-      if (photon.medium != &medium || !counts(sensor_depth + photon.depth, order)) return;
+      if (photon.medium != &medium ||
+          !counts(sensor_depth + photon.depth, order, medium, flight.visit_order + photon.visit_order))
+        return;
       const float t = nearest_within(ray, photon.position, radii_.point_beam);
       if (!(t > 0)) return;
       const float mu = -dot(photon.direction, ray.direction);
@@ -131,7 +137,9 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
     map_.beams_along(ray, [&](uint32_t number, float from, float to) {
       ++work.counters.beam_tests;
       const PhotonBeam& beam = map_.photons.beams[number];
-      if (beam.medium != &medium || !counts(sensor_depth + beam.depth + 1, flight.order + beam.order + 1)) return;
+      if (beam.medium != &medium || !counts(sensor_depth + beam.depth + 1, flight.order + beam.order + 1, medium,
+                                            flight.visit_order + beam.visit_order + 1))
+        return;
       const auto crossing = find_crossing(ray, beam.ray(), radii_.beam_beam);
       if (crossing && crossing->on_second >= from && crossing->on_second < to)
         work.found.push_back({number, *crossing});

@@ -17,7 +17,8 @@ void PhotonRecorder::on_segment(const Ray& way, const Medium& medium, const Path
     if (segment.is_long && leg.collides) segment.ray.t_max = length_to_surface(scene_, way, medium, counters_);
     if (segment.ray.t_max > 0)
       result_->beams.push_back({segment, homogeneous, edge_, straight_,
-                                static_cast<uint32_t>(result_->emissions.size() - 1), state.depth, state.order});
+                                static_cast<uint32_t>(result_->emissions.size() - 1), state.depth, state.order,
+                                state.visit_order});
   }
   LightRecorder::on_segment(way, medium, state, leg);
 }
