@@ -1,5 +1,6 @@
 #include "integrator/entering_lights.h"
 
+#include <array>
 #include <mutex>
 
 #include "core/parallel.h"
@@ -12,6 +13,9 @@ constexpr size_t kGrain = 64;  ///< paths per task
 constexpr uint64_t kEnteringStream = 0x656e746572ull, kRouletteStream = 0x726f756cull, kPilotSet = ~uint64_t{0};
 /// The share of the choice that goes by strength alone: what is expected of a light may be wrong.
 constexpr float kByStrength = 0.1f;
+
+/// So many lights, spread over the set, are considered at one place.
+constexpr size_t kConsidered = 512;
 
 /// Which orders count is for what the light brings to say.
 PathSettings all_orders(PathSettings settings) {
@@ -47,7 +51,7 @@ std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, u
 
 std::vector<Parameter> entering_parameters() {
   std::vector<Parameter> parameters = table_parameters();
-  parameters.push_back({"entering_lights", ParameterType::kInteger, "1000",
+  parameters.push_back({"entering_lights", ParameterType::kInteger, "4000",
                         "about so many ways of light in a set that tables begin with", kAtLeastOne});
   parameters.push_back({"table_samples", ParameterType::kInteger, "4",
                         "of these asked for at each place, or on each way, of the sensor's walks", kAtLeastOne});
@@ -93,23 +97,24 @@ size_t EnteringLights::size() const {
 }
 
 /// Lights are drawn systematically, with probabilities in proportion to what diffusion would bring from about where
-/// each has lost its direction to `seen`; bring(light, rng) times the inverse of the expected number.
+/// each has lost its direction to `seen`, from every so many of the set: bring(light) times the inverse of the expected
+/// number.
 template <class Bring>
 Spectrum EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const {
   const auto found =
       std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) { return group.medium == &medium; });
   if (found == groups_.end() || found->lights.empty()) return Spectrum(0.0f);
   const Group& group = *found;
-  const size_t size = group.lights.size();
-  thread_local std::vector<float> weights;
-  weights.resize(size);
+  const size_t size = group.lights.size(), stride = (size + kConsidered - 1) / kConsidered;
+  const size_t first = std::min(static_cast<size_t>(rng.next_float() * static_cast<float>(stride)), stride - 1);
+  std::array<float, kConsidered> weights;
   double near = 0, strength = 0;
-  for (size_t i = 0; i < size; ++i) {
+  for (size_t i = first, k = 0; i < size; i += stride, ++k) {
     const float distance = length(group.places[i] - seen);
     const float x = group.decay * distance;
     // exp(-x) / distance, nearly; never 0.
-    weights[i] = group.strengths[i] / ((distance + group.transport_path) * (1 + x * (1 + x * (0.5f + x / 6))));
-    near += static_cast<double>(weights[i]);
+    weights[k] = group.strengths[i] / ((distance + group.transport_path) * (1 + x * (1 + x * (0.5f + x / 6))));
+    near += static_cast<double>(weights[k]);
     strength += static_cast<double>(group.strengths[i]);
   }
   if (!(near > 0) || !(strength > 0)) return Spectrum(0.0f);
@@ -117,12 +122,12 @@ Spectrum EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, 
   const auto by_strength = static_cast<double>(kByStrength) / strength;
   Spectrum sum(0.0f);
   double next = rng.next_double(), expected = 0;
-  for (size_t i = 0; i < size; ++i) {
+  for (size_t i = first, k = 0; i < size; i += stride, ++k) {
     const double own =
-        count * (static_cast<double>(weights[i]) * by_near + static_cast<double>(group.strengths[i]) * by_strength);
+        count * (static_cast<double>(weights[k]) * by_near + static_cast<double>(group.strengths[i]) * by_strength);
     for (expected += own; next < expected; ++next) sum += bring(group.lights[i]) / static_cast<float>(own);
   }
-  return sum;
+  return sum * static_cast<float>(stride);
 }
 
 Spectrum EnteringLights::along(const Ray& way, const Medium& medium, const PathState& state, int count,

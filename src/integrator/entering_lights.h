@@ -4,7 +4,7 @@
 namespace turbid {
 
 struct EnteringLightsSettings {
-  size_t lights = 1000;  ///< about so many in a set
+  size_t lights = 4000;  ///< about so many in a set
   int samples = 4;       ///< of these asked for at each place or way
 };
 /// The parameters of tables (table_parameters) and of these settings, and what the latter say.

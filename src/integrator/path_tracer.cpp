@@ -20,27 +20,22 @@ PixelSample trace(const Scene& scene, const PathSettings& settings, const Connec
 /// Looks the table up at each first collision of a visit.
 class TableGatherer : public LightGatherer {
  public:
-  TableGatherer(const Scene& scene, const PathSettings& settings, const TableLight& table,
-                const std::vector<EnteringLight>& lights, Sampler& sampler, SampleCounters& counters)
+  TableGatherer(const Scene& scene, const PathSettings& settings, const EnteringLights& entering, int table_samples,
+                Sampler& sampler, SampleCounters& counters)
       : LightGatherer(scene, settings, {}, nullptr, sampler, counters),
-        settings_(settings),
-        table_(table),
-        lights_(lights),
+        entering_(entering),
+        table_samples_(table_samples),
         sampler_(sampler) {}
 
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
     LightGatherer::at_collision(event, state, traveller);
-    if (state.visit_order != 1 || lights_.empty()) return;
-    const auto boundaries = table_.boundaries_around(event.position, event.direction, event.medium);
-    Rng rng = sampler_.aside(event.position, event.direction);
-    for (const EnteringLight& light : lights_)
-      add(table_.from_order(), table_.at_collision(light, boundaries, event, state, settings_, rng));
+    Rng rng = sampler_.aside(event.position, -event.direction);
+    add(kOrderClasses - 1, entering_.at_collision(event, state, table_samples_, rng));
   }
 
  private:
-  const PathSettings& settings_;
-  const TableLight& table_;
-  const std::vector<EnteringLight>& lights_;
+  const EnteringLights& entering_;
+  int table_samples_;
   Sampler& sampler_;
 };
 
@@ -60,22 +55,36 @@ PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& cam
              : trace<false>(scene, settings_, connection_, nullptr, camera, sampler, counters);
 }
 
-/// One walk from a light for each from the sensor, and all that enters on the one for every visit of the other.
 PixelSample PathTracer::trace_with_table(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                          SampleCounters& counters) const {
-  Rng aside = sampler.aside(camera.ray.origin, camera.ray.direction);
-  Sampler light_sampler(SamplerKind::kIndependent, hash_counters(aside.next_u32(), aside.next_u32()));
-  light_sampler.start(0, 0);
-  EnteringLightKeeper keeper(scene, *table_, counters);
-  keeper.begin(aside);
-  const PathSettings from_lights = without_visit_limit(settings_);
-  LightWalk<EnteringLightKeeper>(scene, from_lights, light_sampler, counters, keeper).run(*sources_);
-
-  TableGatherer gatherer(scene, settings_, *table_, keeper.entered(), sampler, counters);
+  TableGatherer gatherer(scene, settings_, *entering_, entering_settings_.samples, sampler, counters);
   const float alpha = CameraWalk<TableGatherer>(scene, settings_, sampler, counters, gatherer).run(camera);
   PixelSample sample = gatherer.result();
   sample.alpha = alpha;
   return sample;
+}
+
+/// With tables, in parts whose samples share a set of entering lights, named by seed and number.
+bool PathTracer::render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) {
+  if (!table_) return SamplingIntegrator::render_pass(scene, pass, film, stop);
+  const EnteringLightsPlan plan{scene, *sources_, settings_, *table_, pass.seed};
+  if (entering_paths_ == 0 || entering_seed_ != pass.seed)
+    entering_paths_ = paths_for_entering_lights(plan, entering_settings_.lights);
+  const uint64_t end = pass.first_sample + pass.sample_count;
+  for (uint64_t first = pass.first_sample; first < end;) {
+    const uint64_t set = first / kReuse, next = std::min(end, (set + 1) * kReuse);
+    if (!entering_ || entering_seed_ != pass.seed || entering_set_ != set) {
+      SampleCounters counters;
+      entering_ = std::make_unique<const EnteringLights>(plan, entering_paths_, set, counters);
+      entering_seed_ = pass.seed;
+      entering_set_ = set;
+      add_counters(counters);
+    }
+    if (!SamplingIntegrator::render_pass(scene, {pass.seed, first, static_cast<uint32_t>(next - first)}, film, stop))
+      return false;
+    first = next;
+  }
+  return true;
 }
 
 void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
@@ -83,6 +92,8 @@ void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
   if (table_settings_.source == TableSettings::Source::kNone) return;
   table_ = std::make_unique<const TableLight>(scene, table_settings_);
   table_->limit(settings_);
+  entering_paths_ = 0;
+  entering_.reset();
   sources_ = std::make_unique<const LightSources>(scene, true);
 }
 
@@ -108,7 +119,7 @@ IntegratorPlugin volpath_row() {
                      "light that one smooth boundary of triangles bends before it scatters once: found by paths, or as "
                      "singlescatter finds it",
                      {"path", "refractive"}));
-  for (Parameter& parameter : table_parameters()) own.push_back(std::move(parameter));
+  for (Parameter& parameter : entering_parameters()) own.push_back(std::move(parameter));
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
@@ -120,11 +131,11 @@ IntegratorPlugin volpath_row() {
             if (table.source != TableSettings::Source::kNone && (refractive || properties.string("nee") != "standard"))
               properties.refuse("multiple_scattering",
                                 "a table goes with single_scattering = path and nee = standard alone");
-            return IntegratorSetup{
-                std::make_shared<PathTracer>(
-                    Kind::kVolumes, path, connection_settings(properties, "nee"),
-                    refractive ? std::optional<RefractiveSettings>(std::in_place) : std::nullopt, table),
-                false};
+            return IntegratorSetup{std::make_shared<PathTracer>(
+                                       Kind::kVolumes, path, connection_settings(properties, "nee"),
+                                       refractive ? std::optional<RefractiveSettings>(std::in_place) : std::nullopt,
+                                       table, entering_settings(properties)),
+                                   false};
           }};
 }
 

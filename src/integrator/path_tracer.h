@@ -1,9 +1,9 @@
 #pragma once
 #include <optional>
 
+#include "integrator/entering_lights.h"
 #include "integrator/integrator_plugin.h"
 #include "integrator/sampling_integrator.h"
-#include "integrator/table_light.h"
 #include "refraction/refractive_scattering.h"
 
 namespace turbid {
@@ -21,10 +21,17 @@ class PathTracer : public SamplingIntegrator {
   /// kVolumes only: how collisions next to a light are found; how single scattering of light that smooth interfaces
   /// bend is (left out: by paths alone); how multiple scattering is, which asks for the defaults of the other two.
   PathTracer(Kind kind, const PathSettings& settings, const ConnectionSettings& connection = {},
-             const std::optional<RefractiveSettings>& refraction = {}, const TableSettings& table = {})
-      : kind_(kind), settings_(settings), connection_(connection), refraction_(refraction), table_settings_(table) {}
+             const std::optional<RefractiveSettings>& refraction = {}, const TableSettings& table = {},
+             const EnteringLightsSettings& entering = {})
+      : kind_(kind),
+        settings_(settings),
+        connection_(connection),
+        refraction_(refraction),
+        table_settings_(table),
+        entering_settings_(entering) {}
 
   void prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) override;
+  bool render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) override;
   bool sees_media() const override { return kind_ == Kind::kVolumes; }
   /// With refraction: delta lights through smooth meshes, as far as single scattering goes.
   PathSupport support() const override {
@@ -45,10 +52,17 @@ class PathTracer : public SamplingIntegrator {
   ConnectionSettings connection_;
   std::optional<RefractiveSettings> refraction_;
   TableSettings table_settings_;
+  EnteringLightsSettings entering_settings_;
   // Made by prepare().
   std::unique_ptr<const RefractiveScattering> scattering_;
   std::unique_ptr<const TableLight> table_;  ///< null: paths find all light
   std::unique_ptr<const LightSources> sources_;
+  size_t entering_paths_ = 0;
+
+  /// Samples of the pixels that share a set of entering lights.
+  static constexpr uint64_t kReuse = 16;
+  std::unique_ptr<const EnteringLights> entering_;  ///< of the samples that are being made
+  uint64_t entering_seed_ = 0, entering_set_ = 0;
 };
 
 /// Rows of the integrator table: `path`, `direct`, `volpath`, `singlescatter`.
