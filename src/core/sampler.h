@@ -24,6 +24,8 @@ enum class Purpose : uint64_t {
   kLightsOfWay,         ///< virtual lights chosen for a way of the sensor's walk, and places on both
   kCachedPlace,         ///< places on ray lights, seen from a cache point
   kCachedWay,           ///< places on ray lights and on a way that is a cache point
+  kTableAtCollision,    ///< entering lights that a table is looked up for at a collision
+  kTableAlongWay,       ///< the same along a way, and places on it
 };
 
 /// The source of the numbers u in [0, 1) that one sample of one pixel consumes, in order.

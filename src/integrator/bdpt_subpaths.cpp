@@ -227,6 +227,14 @@ double SensorSubpath::others_of_direct(const Vertex& vertex, const EmitterChoice
                                   merged_at(weights_, vertex, light.wi));
 }
 
+/// Both ends are in the midst of a visit to one medium: together they have made so many collisions there.
+bool SensorSubpath::visit_counts(const Vertex& vertex, const Vertex& light) const {
+  if (context_.settings.limited_media.empty()) return true;
+  const Vec3 way = light.position - vertex.position;
+  return context_.settings.visit_counts(vertex.medium_towards(way),
+                                        vertex.visit_order_towards(way) + light.visit_order_towards(-way));
+}
+
 /// Of the lines that make paths of k edges min(1, connections / k) are taken, systematically: the number does not
 /// depend on how far the light's subpath was followed.
 void SensorSubpath::join(const Vertex& vertex, const Traveller& traveller) {
@@ -240,6 +248,7 @@ void SensorSubpath::join(const Vertex& vertex, const Traveller& traveller) {
     if (edges > context_.settings.max_depth) return;
     const int order = vertex.order + light.order;
     if (!context_.settings.order_counts(order) || turbid::counted_elsewhere(light.bent, order)) continue;
+    if (!visit_counts(vertex, light)) continue;
     ++context_.counters.connections;
     const auto joined = turbid::join(context_.scene, weights_, vertex, light, traveller);
     if (joined) gather(joined->value / prob, joined->others, light.depth + 1, vertex.depth + 1, order);

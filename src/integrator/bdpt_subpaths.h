@@ -101,6 +101,7 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
   void connect(const Vertex& vertex, const Traveller& traveller);
 
   const BdptContext& context_;
+  Sampler& sampler_;
   ContributionSink* sink_ = nullptr;
 
  private:
@@ -112,8 +113,8 @@ class SensorSubpath : public SubpathRecorder<TransportMode::kRadiance> {
                           const Vertex::Scattering& scattered, const Spectrum& proxy) const;
   void join(const Vertex& vertex, const Traveller& traveller);
   bool counted_elsewhere(bool environment) const { return refraction_ && refraction_->has_counted(environment); }
+  bool visit_counts(const Vertex& vertex, const Vertex& light) const;
 
-  Sampler& sampler_;
   const std::vector<Vertex>& light_vertices_;
   std::optional<RefractiveGatherer> refraction_;
   Vec2 u_aperture_;

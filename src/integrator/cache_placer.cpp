@@ -34,7 +34,7 @@ class CachePlacer::Recorder : public ShadingRecorder {
            SampleCounters& counters)
       : ShadingRecorder(Kind::kPasses),
         owner_(owner),
-        lines_(owner.lights_, owner.plan_.lines, sampler),
+        lines_(owner.lights_, owner.plan_, sampler),
         kind_(kind),
         weights_(weights),
         sampler_(sampler),

@@ -54,6 +54,12 @@ class LightGatherer : public WalkRecorder {
                 const Traveller& traveller);
   void at_escape(const PathState& state, const Traveller& traveller);
 
+ protected:
+  void add(int order, const Spectrum& light) {
+    result_.radiance += light;
+    result_.by_order[std::min(order, kOrderClasses - 1)] += light;
+  }
+
  private:
   /// A point of a light, as the vertex sees it that it was chosen from.
   struct LightEnd {
@@ -80,10 +86,6 @@ class LightGatherer : public WalkRecorder {
 
   void gather(const PathState& state, const Spectrum& value) {
     if (settings_.order_counts(state.order)) add(state.order, state.throughput * value);
-  }
-  void add(int order, const Spectrum& light) {
-    result_.radiance += light;
-    result_.by_order[std::min(order, kOrderClasses - 1)] += light;
   }
 
   /// Next-event estimation: one light, one point on it. `scatter(wi)` gives the value of the scattering and its

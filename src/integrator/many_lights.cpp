@@ -20,7 +20,7 @@ constexpr uint64_t kCacheStream = 0x6361636865ull, kScatteringStream = 0x7363617
 PathSettings all_orders(PathSettings settings) {
   settings.min_scattering = 0;
   settings.max_scattering = PathSettings::kUnlimited;
-  return settings;
+  return without_visit_limit(settings);
 }
 
 bool scatters(const Scene& scene) {
@@ -43,9 +43,10 @@ class ManyLights::Shader final : public SplattingIntegrator::Worker {
         scattering_sampler_(scene.sampler(), hash_counters(seed, kScatteringStream)),
         counters_(counters),
         chooser_(owner.set_->sampler ? owner.set_->sampler->make_chooser() : nullptr),
-        passing_(ShadingRecorder::Kind::kPasses, *owner.plan_, owner.set_->lights, chooser_.get(), sampler_, counters),
-        scattering_(ShadingRecorder::Kind::kScatters, *owner.plan_, owner.set_->lights, chooser_.get(),
-                    scattering_sampler_, counters),
+        passing_(ShadingRecorder::Kind::kPasses, *owner.plan_, owner.set_->lights, owner.set_->entering.get(),
+                 chooser_.get(), sampler_, counters),
+        scattering_(ShadingRecorder::Kind::kScatters, *owner.plan_, owner.set_->lights, owner.set_->entering.get(),
+                    chooser_.get(), scattering_sampler_, counters),
         passing_walk_(scene, owner.path_, sampler_, counters, passing_),
         scattering_walk_(scene, owner.path_, scattering_sampler_, counters, scattering_),
         has_media_(scatters(scene)) {}
@@ -92,8 +93,12 @@ void ManyLights::prepare_workers(const Scene& scene) {
   sources_.emplace(scene, true);
   own_.lines.max_depth = path_.max_depth;
   if (own_.refraction) scattering_ = std::make_unique<const RefractiveScattering>(scene, *own_.refraction);
+  if (own_.table.source != TableSettings::Source::kNone) {
+    table_ = std::make_unique<const TableLight>(scene, own_.table);
+    table_->limit(path_);
+  }
   plan_.emplace(ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.direct_samples,
-                            own_.rays, scattering_.get()});
+                            own_.rays, scattering_.get(), own_.entering.samples});
   set_.reset();
   paths_ = 0;
 }
@@ -102,13 +107,21 @@ bool ManyLights::prepare_round(const Scene& scene, uint64_t seed, uint64_t index
   const uint64_t number = index / static_cast<uint64_t>(own_.reuse);
   if (set_ && set_->seed == seed && set_->number == number) return true;
   const PathSettings light_path = all_orders(path_);
-  const VirtualLightPlan lights{scene, *sources_, light_path, seed, own_.rays};
+  VirtualLightPlan lights{scene, *sources_, light_path, seed, own_.rays};
+  std::optional<EnteringLightsPlan> entering;
+  if (table_) {
+    lights.known_media = table_->media();
+    lights.joined_visit_order = table_->from_order() - 3;
+    entering.emplace(EnteringLightsPlan{scene, *sources_, path_, *table_, seed});
+  }
   if (paths_ == 0 || paths_seed_ != seed) {
     paths_ = paths_for_lights(lights, own_.lights);
+    if (entering) entering_paths_ = paths_for_entering_lights(*entering, own_.entering.lights);
     paths_seed_ = seed;
   }
   set_.reset();
-  set_.emplace(Set{seed, number, VirtualLights(lights, paths_, number, prepared_), nullptr});
+  set_.emplace(Set{seed, number, VirtualLights(lights, paths_, number, prepared_), nullptr, nullptr});
+  if (entering) set_->entering = std::make_unique<EnteringLights>(*entering, entering_paths_, number, prepared_);
   lights_made_ += set_->lights.size();
   set_->sampler = make_sampler(scene, seed, number, stop);
   return true;

@@ -18,6 +18,8 @@ struct ManyLightsSettings {
   VolumePoints volume_points;
   CacheSettings caches;
   std::optional<RefractiveSettings> refraction;  ///< of single scattering; empty: by paths
+  TableSettings table;
+  EnteringLightsSettings entering;
 };
 
 /// Rendering by virtual point lights (Keller 1997) and ray lights (Novak et al. 2012): light paths leave lights where
@@ -50,16 +52,19 @@ class ManyLights : public SplattingIntegrator {
   ManyLightsSettings own_;
   std::optional<LightSources> sources_;
   std::unique_ptr<const RefractiveScattering> scattering_;
+  std::unique_ptr<const TableLight> table_;  ///< null: virtual lights make multiple scattering, too
   std::optional<ShadingPlan> plan_;
 
   // The set of lights that is in use.
   struct Set {
     uint64_t seed, number;
     VirtualLights lights;
-    std::unique_ptr<LightSampler> sampler;  ///< null: all lights
+    std::unique_ptr<LightSampler> sampler;     ///< null: all lights
+    std::unique_ptr<EnteringLights> entering;  ///< where there is a table
   };
   std::optional<Set> set_;
-  size_t paths_ = 0;  ///< of a set; found for the seed ...
+  size_t paths_ = 0;           ///< of a set; found for the seed ...
+  size_t entering_paths_ = 0;  ///< ... that make entering lights, too
   uint64_t paths_seed_ = 0;
 
   SampleCounters prepared_;

@@ -29,40 +29,43 @@ Parameter sampler_parameter(bool rays) {
 }
 
 std::vector<Parameter> parameters(bool rays) {
-  return with_common_parameters(
-      {sampler_parameter(rays),
-       {"lights", ParameterType::kInteger, "1000", "about so many virtual lights in a set", kAtLeastOne},
-       {"reuse", ParameterType::kInteger, "16", "samples per pixel that share a set; then new lights are made",
-        kAtLeastOne},
-       {"light_samples", ParameterType::kInteger, "8", "virtual lights asked for at each place that is shaded",
-        kAtLeastOne},
-       {"direct_samples", ParameterType::kInteger, "4", "lights asked for at each place that is shaded", kAtLeastOne},
-       {"volume_points", ParameterType::kInteger, "4",
-        rays ? "places on each way through a medium where lights are asked for directly"
-             : "places that are shaded on each way through a medium",
-        kAtLeastOne},
-       word("volume_sampling", "transmittance",
-            "where on the way: by transmittance, or evenly (uniform); media that vary: evenly",
-            {"transmittance", "uniform"}),
-       {"surface_caches", ParameterType::kInteger, "1000", "cache points on surfaces", kNonNegative},
-       {"volume_caches", ParameterType::kInteger, "1000",
-        rays ? "cache points that are ways through media" : "cache points in media", kNonNegative},
-       {"nearest",
-        ParameterType::kInteger,
-        "3",
-        "cache points that are mixed at a place",
-        {.min = 1, .max = ImportanceCache::kMostNearest}},
-       word("cache_mixture", "wide",
-            "what is mixed with the nearest cache points: wide (points around them, all points, near lights, a little "
-            "uniform choice), seed (uniform choice alone, as in the seed)",
-            {"wide", "seed"}),
-       {"memory", ParameterType::kInteger, "512", "most memory for cache points, MiB", kAtLeastOne},
-       {"clamp_distance", ParameterType::kFloat, "0",
-        "virtual lights nearer than this count as at this distance: less noise, and darker; 0: as they are",
-        kNonNegative},
-       {"least_distance", ParameterType::kFloat, "0",
-        "virtual lights nearer than this are left out, for comparisons; 0: all count", kNonNegative},
-       single_scattering_parameter()});
+  std::vector<Parameter> own = {
+      sampler_parameter(rays),
+      {"lights", ParameterType::kInteger, "1000", "about so many virtual lights in a set", kAtLeastOne},
+      {"reuse", ParameterType::kInteger, "16", "samples per pixel that share a set; then new lights are made",
+       kAtLeastOne},
+      {"light_samples", ParameterType::kInteger, "8", "virtual lights asked for at each place that is shaded",
+       kAtLeastOne},
+      {"direct_samples", ParameterType::kInteger, "4", "lights asked for at each place that is shaded", kAtLeastOne},
+      {"volume_points", ParameterType::kInteger, "4",
+       rays ? "places on each way through a medium where lights are asked for directly"
+            : "places that are shaded on each way through a medium",
+       kAtLeastOne},
+      word("volume_sampling", "transmittance",
+           "where on the way: by transmittance, or evenly (uniform); media that vary: evenly",
+           {"transmittance", "uniform"}),
+      {"surface_caches", ParameterType::kInteger, "1000", "cache points on surfaces", kNonNegative},
+      {"volume_caches", ParameterType::kInteger, "1000",
+       rays ? "cache points that are ways through media" : "cache points in media", kNonNegative},
+      {"nearest",
+       ParameterType::kInteger,
+       "3",
+       "cache points that are mixed at a place",
+       {.min = 1, .max = ImportanceCache::kMostNearest}},
+      word("cache_mixture", "wide",
+           "what is mixed with the nearest cache points: wide (points around them, all points, near lights, a little "
+           "uniform choice), seed (uniform choice alone, as in the seed)",
+           {"wide", "seed"}),
+      {"memory", ParameterType::kInteger, "512", "most memory for cache points, MiB", kAtLeastOne},
+      {"clamp_distance", ParameterType::kFloat, "0",
+       "virtual lights nearer than this count as at this distance: less noise, and darker; 0: as they are",
+       kNonNegative},
+      {"least_distance", ParameterType::kFloat, "0",
+       "virtual lights nearer than this are left out, for comparisons; 0: all count", kNonNegative},
+      single_scattering_parameter()};
+  if (rays)
+    for (Parameter& parameter : entering_parameters()) own.push_back(std::move(parameter));
+  return with_common_parameters(std::move(own));
 }
 
 ManyLightsSettings settings_of(const Properties& properties, bool rays) {
@@ -88,6 +91,9 @@ ManyLightsSettings settings_of(const Properties& properties, bool rays) {
   own.lines.clamp_distance = properties.number("clamp_distance");
   own.lines.least_distance = properties.number("least_distance");
   own.refraction = refraction_settings(properties);
+  if (!rays) return own;
+  own.table = table_settings(properties, path_settings(properties));
+  own.entering = entering_settings(properties);
   return own;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include "gathering/sensor_gatherer.h"
 #include "integrator/bdpt_subpaths.h"
+#include "integrator/entering_lights.h"
 #include "photon/photon_gatherer.h"
 
 namespace turbid {
@@ -9,12 +10,16 @@ namespace turbid {
 class MergingSubpath : public SensorSubpath {
  public:
   /// `long_flights`: reach to the next surface, with the transmittance as weight; else they end where the walk
-  /// collides.
+  /// collides. `entering`: what tables begin with, `table_samples` of which are asked for at each first collision of a
+  /// visit; null without tables.
   MergingSubpath(const BdptContext& context, Sampler& sampler, const std::vector<Vertex>& light_vertices,
-                 const PhotonGatherer& gatherer, bool long_flights, MergeWork& work)
+                 const PhotonGatherer& gatherer, bool long_flights, const EnteringLights* entering, int table_samples,
+                 MergeWork& work)
       : SensorSubpath(context, sampler, light_vertices),
         gatherer_(gatherer),
         long_flights_(long_flights),
+        entering_(entering),
+        table_samples_(table_samples),
         work_(work) {}
 
   void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg) {
@@ -32,6 +37,12 @@ class MergingSubpath : public SensorSubpath {
     const Vertex vertex = reach(event, state);
     connect(vertex, traveller);
     gatherer_.at(vertex, *sink_, work_);
+    if (!entering_) return;
+    Rng rng = sampler_.aside(Purpose::kTableAtCollision, event.position, event.direction);
+    sink_->gather({.value = entering_->at_collision(event, state, table_samples_, rng),
+                   .light_vertices = 1,
+                   .sensor_vertices = vertex.depth + 1,
+                   .order = kOrderClasses - 1});
   }
 
  private:
@@ -45,11 +56,13 @@ class MergingSubpath : public SensorSubpath {
     const auto sums_at = [&](float t) {
       return arrive({way.at(t), medium.sigma_t(), 1}, state.depth + 1, straight_ * medium.transmittance(t));
     };
-    gatherer_.along({segment, medium, state.depth, state.order}, sums_at, *sink_, work_);
+    gatherer_.along({segment, medium, state.depth, state.order, state.visit_order}, sums_at, *sink_, work_);
   }
 
   const PhotonGatherer& gatherer_;
   bool long_flights_;
+  const EnteringLights* entering_;
+  int table_samples_;
   MergeWork& work_;
 };
 

@@ -17,6 +17,28 @@ PixelSample trace(const Scene& scene, const PathSettings& settings, const Connec
   return sample;
 }
 
+/// Looks the table up at each first collision of a visit.
+class TableGatherer : public LightGatherer {
+ public:
+  TableGatherer(const Scene& scene, const PathSettings& settings, const EnteringLights& entering, int table_samples,
+                Sampler& sampler, SampleCounters& counters)
+      : LightGatherer(scene, settings, {}, nullptr, sampler, counters),
+        entering_(entering),
+        table_samples_(table_samples),
+        sampler_(sampler) {}
+
+  void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
+    LightGatherer::at_collision(event, state, traveller);
+    Rng rng = sampler_.aside(Purpose::kTableAtCollision, event.position, event.direction);
+    add(kOrderClasses - 1, entering_.at_collision(event, state, table_samples_, rng));
+  }
+
+ private:
+  const EnteringLights& entering_;
+  int table_samples_;
+  Sampler& sampler_;
+};
+
 using Kind = PathTracer::Kind;
 
 IntegratorSetup make_surfaces(const Properties& properties) {
@@ -27,13 +49,52 @@ IntegratorSetup make_surfaces(const Properties& properties) {
 
 PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                         SampleCounters& counters) const {
+  if (table_) return trace_with_table(scene, camera, sampler, counters);
   return kind_ == Kind::kVolumes
              ? trace<true>(scene, settings_, connection_, scattering_.get(), camera, sampler, counters)
              : trace<false>(scene, settings_, connection_, nullptr, camera, sampler, counters);
 }
 
+PixelSample PathTracer::trace_with_table(const Scene& scene, const SensorRay& camera, Sampler& sampler,
+                                         SampleCounters& counters) const {
+  TableGatherer gatherer(scene, settings_, *entering_, entering_settings_.samples, sampler, counters);
+  const float alpha = CameraWalk<TableGatherer>(scene, settings_, sampler, counters, gatherer).run(camera);
+  PixelSample sample = gatherer.result();
+  sample.alpha = alpha;
+  return sample;
+}
+
+/// With tables, in parts whose samples share a set of entering lights, named by seed and number.
+bool PathTracer::render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) {
+  if (!table_) return SamplingIntegrator::render_pass(scene, pass, film, stop);
+  const EnteringLightsPlan plan{scene, *sources_, settings_, *table_, pass.seed};
+  if (entering_paths_ == 0 || entering_seed_ != pass.seed)
+    entering_paths_ = paths_for_entering_lights(plan, entering_settings_.lights);
+  const uint64_t end = pass.first_sample + pass.sample_count;
+  for (uint64_t first = pass.first_sample; first < end;) {
+    const uint64_t set = first / kReuse, next = std::min(end, (set + 1) * kReuse);
+    if (!entering_ || entering_seed_ != pass.seed || entering_set_ != set) {
+      SampleCounters counters;
+      entering_ = std::make_unique<const EnteringLights>(plan, entering_paths_, set, counters);
+      entering_seed_ = pass.seed;
+      entering_set_ = set;
+      add_counters(counters);
+    }
+    if (!SamplingIntegrator::render_pass(scene, {pass.seed, first, static_cast<uint32_t>(next - first)}, film, stop))
+      return false;
+    first = next;
+  }
+  return true;
+}
+
 void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
   if (refraction_) scattering_ = std::make_unique<const RefractiveScattering>(scene, *refraction_);
+  if (table_settings_.source == TableSettings::Source::kNone) return;
+  table_ = std::make_unique<const TableLight>(scene, table_settings_);
+  table_->limit(settings_);
+  entering_paths_ = 0;
+  entering_.reset();
+  sources_ = std::make_unique<const LightSources>(scene, true);
 }
 
 IntegratorPlugin path_row() {
@@ -55,14 +116,19 @@ IntegratorPlugin direct_row() {
 IntegratorPlugin volpath_row() {
   std::vector<Parameter> own = connection_parameters("nee", "light");
   own.push_back(single_scattering_parameter());
+  for (Parameter& parameter : entering_parameters()) own.push_back(std::move(parameter));
   return {"volpath",
           {"volpathmis"},
           "path tracing with media: next-event estimation through null boundaries, all channels weighed together",
           with_common_parameters(own),
           [](const Properties& properties) {
+            const PathSettings path = path_settings(properties);
+            const TableSettings table = table_settings(properties, path);
+            if (table.source != TableSettings::Source::kNone && properties.string("nee") != "standard")
+              properties.refuse("multiple_scattering", "a table goes with nee = standard alone");
             return IntegratorSetup{
-                std::make_shared<PathTracer>(Kind::kVolumes, path_settings(properties),
-                                             connection_settings(properties, "nee"), refraction_settings(properties)),
+                std::make_shared<PathTracer>(Kind::kVolumes, path, connection_settings(properties, "nee"),
+                                             refraction_settings(properties), table, entering_settings(properties)),
                 false};
           }};
 }

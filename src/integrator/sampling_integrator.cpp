@@ -27,6 +27,11 @@ Counters SamplingIntegrator::counters() const {
   return result;
 }
 
+void SamplingIntegrator::add_counters(const SampleCounters& counters) {
+  const std::lock_guard lock(mutex_);
+  totals_.add(counters);
+}
+
 bool SamplingIntegrator::split_orders(const std::vector<OrderLayer>& layers) {
   order_layers_ = layers;
   return true;
@@ -41,8 +46,7 @@ bool SamplingIntegrator::render_pass(const Scene& scene, const Pass& pass, Film&
     const Vec2i to{std::min(from.x + kTileSize, size.x), std::min(from.y + kTileSize, size.y)};
     SampleCounters counters;
     render_tile(scene, pass, from, to, film, counters, stop);
-    const std::lock_guard lock(mutex_);
-    totals_.add(counters);
+    add_counters(counters);
   });
   if (stop.requested()) return false;
   film.add_samples(pass.sample_count);

@@ -18,6 +18,9 @@ class SamplingIntegrator : public Integrator {
   virtual PixelSample sample_radiance(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                       SampleCounters& counters) const = 0;
 
+  /// Counts what happened outside of samples, too: from any thread.
+  void add_counters(const SampleCounters& counters);
+
  private:
   void render_tile(const Scene& scene, const Pass& pass, const Vec2i& from, const Vec2i& to, Film& film,
                    SampleCounters& counters, const StopFlag& stop) const;

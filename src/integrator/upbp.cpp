@@ -20,7 +20,8 @@ class Upbp::Tracer final : public SplattingIntegrator::Worker {
   Tracer(const Upbp& owner, const Scene& scene, uint64_t seed, SampleCounters& counters)
       : owner_(owner),
         worker_({scene, *owner.sources_, owner.path_, *owner.weights_, owner.own_.connections, owner.scattering_.get()},
-                seed, counters, *owner.gatherer_, owner.own_.long_flights, work_) {}
+                seed, counters, *owner.gatherer_, owner.own_.long_flights,
+                owner.entering_ ? &*owner.entering_ : nullptr, owner.own_.entering.samples, work_) {}
 
   ~Tracer() override {
     const std::lock_guard lock(owner_.counters_mutex_);
@@ -57,6 +58,11 @@ void Upbp::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
 void Upbp::prepare_workers(const Scene& scene) {
   sources_.emplace(scene, true);
   if (own_.refraction) scattering_ = std::make_unique<const RefractiveScattering>(scene, *own_.refraction);
+  if (own_.table.source != TableSettings::Source::kNone) {
+    table_ = std::make_unique<const TableLight>(scene, own_.table);
+    table_->limit(path_);
+    entering_paths_ = 0;
+  }
   first_radius_ = own_.radius ? *own_.radius : default_media_radius(scene, own_.pixels);
   first_surface_radius_ = own_.surface_radius ? *own_.surface_radius : default_surface_radius(scene, own_.pixels);
   leaves_.collisions = own_.uses(Technique::kPointPoint) || own_.uses(Technique::kPointBeam);
@@ -103,6 +109,13 @@ bool Upbp::prepare_round(const Scene& scene, uint64_t seed, uint64_t index, int,
   map_.photons.clear();
   if (!finds_scale_ && (leaves_.surfaces || leaves_.inhomogeneous)) trace_photons(scene, seed, index, paths, stop);
   map_.index(first_radius_);
+  if (table_ && !finds_scale_) {
+    const EnteringLightsPlan plan{scene, *sources_, path_, *table_, seed};
+    if (entering_paths_ == 0) entering_paths_ = paths_for_entering_lights(plan, own_.entering.lights);
+    SampleCounters counters;
+    entering_.emplace(plan, entering_paths_, index, counters);
+    add_counters(counters);
+  }
   points_ += map_.photons.collisions.size() + map_.photons.surfaces.size();
   beams_ += map_.photons.beams.size();
   return true;

@@ -2,6 +2,7 @@
 #include <bitset>
 #include <optional>
 
+#include "integrator/entering_lights.h"
 #include "integrator/integrator_plugin.h"
 #include "integrator/splatting_integrator.h"
 #include "photon/photon_gatherer.h"
@@ -23,6 +24,8 @@ struct UpbpSettings {
   size_t memory = size_t{1} << 30;  ///< for photons, bytes; about
   bool shows_techniques = false;
   std::optional<RefractiveSettings> refraction;  ///< of single scattering; empty: by these techniques, too
+  TableSettings table;
+  EnteringLightsSettings entering;
 
   static constexpr int kBeamPaths = 5000;
   bool uses(Technique technique) const { return techniques[static_cast<size_t>(technique)]; }
@@ -84,7 +87,11 @@ class Upbp : public SplattingIntegrator {
   double bytes_per_path_ = 0;
   bool finds_scale_ = false;  ///< of splats, which needs no photons
 
+  std::unique_ptr<const TableLight> table_;  ///< null: techniques find multiple scattering, too
+  size_t entering_paths_ = 0;
+
   // Of the image that is being made.
+  std::optional<EnteringLights> entering_;
   PhotonSettings leaves_;
   std::optional<StrategyWeights> weights_;
   std::optional<PhotonGatherer> gatherer_;

@@ -10,44 +10,46 @@ namespace {
 std::string all_names() { return fmt::format("{}", fmt::join(kTechniqueNames, ", ")); }
 
 std::vector<Parameter> parameters(const std::string& techniques) {
-  return with_common_parameters(
-      {{"techniques", ParameterType::kString, techniques,
-        "how paths are made, in any combination (a space, comma or + between them): bpt (lines between two walks), "
-        "surf "
-        "(photons at surfaces), pp3d, pb2d (photon points near collisions, near flights), bp2d, bb1d (photon beams); "
-        "auto: a pilot chooses"},
-       heuristic_parameter("balance"),
-       {"connections",
-        ParameterType::kFloat,
-        "8",
-        "about how many of the joining lines are tried for paths of one length",
-        {.min = 1}},
-       {"radius", ParameterType::kFloat, "0",
-        "of kernels in media in the first image, scene units; 0: a pixel, and no more than keeps the bias at "
-        "boundaries "
-        "small",
-        kNonNegative},
-       {"surface_radius", ParameterType::kFloat, "0", "of disks on surfaces in the first image; 0: by pixels",
-        kNonNegative},
-       {"pixels", ParameterType::kFloat, "0.5", "radii in widths of what a pixel covers, where they are 0", kPositive},
-       {"keep",
-        ParameterType::kFloat,
-        "0.6666667",
-        "how much of each image's light the shrinking kernels keep, in (0, 1]; 1: radii stay",
-        {.min = 0, .max = 1, .open_min = true}},
-       word("photon_beams", "short", "end where light collides (short) or at the next surface (long)",
-            {"short", "long"}),
-       word("sensor_beams", "short", "end where walks from the sensor collide (short) or at the next surface (long)",
-            {"short", "long"}),
-       {"light_paths", ParameterType::kInteger, "1", "light paths per pixel of each image", kAtLeastOne},
-       {"beam_paths", ParameterType::kInteger, "0",
-        "how many of an image's light paths leave beams; 0: the pilot chooses, or 5000 where techniques are named",
-        kNonNegative},
-       {"memory", ParameterType::kInteger, "1024", "about the most memory for photons, MiB: fewer light paths above it",
-        kAtLeastOne},
-       {"visualize_techniques", ParameterType::kBoolean, "false",
-        "writes what each technique contributes as layers technique.NAME"},
-       single_scattering_parameter()});
+  std::vector<Parameter> own = {
+      {"techniques", ParameterType::kString, techniques,
+       "how paths are made, in any combination (a space, comma or + between them): bpt (lines between two walks), "
+       "surf "
+       "(photons at surfaces), pp3d, pb2d (photon points near collisions, near flights), bp2d, bb1d (photon beams); "
+       "auto: a pilot chooses"},
+      heuristic_parameter("balance"),
+      {"connections",
+       ParameterType::kFloat,
+       "8",
+       "about how many of the joining lines are tried for paths of one length",
+       {.min = 1}},
+      {"radius", ParameterType::kFloat, "0",
+       "of kernels in media in the first image, scene units; 0: a pixel, and no more than keeps the bias at "
+       "boundaries "
+       "small",
+       kNonNegative},
+      {"surface_radius", ParameterType::kFloat, "0", "of disks on surfaces in the first image; 0: by pixels",
+       kNonNegative},
+      {"pixels", ParameterType::kFloat, "0.5", "radii in widths of what a pixel covers, where they are 0", kPositive},
+      {"keep",
+       ParameterType::kFloat,
+       "0.6666667",
+       "how much of each image's light the shrinking kernels keep, in (0, 1]; 1: radii stay",
+       {.min = 0, .max = 1, .open_min = true}},
+      word("photon_beams", "short", "end where light collides (short) or at the next surface (long)",
+           {"short", "long"}),
+      word("sensor_beams", "short", "end where walks from the sensor collide (short) or at the next surface (long)",
+           {"short", "long"}),
+      {"light_paths", ParameterType::kInteger, "1", "light paths per pixel of each image", kAtLeastOne},
+      {"beam_paths", ParameterType::kInteger, "0",
+       "how many of an image's light paths leave beams; 0: the pilot chooses, or 5000 where techniques are named",
+       kNonNegative},
+      {"memory", ParameterType::kInteger, "1024", "about the most memory for photons, MiB: fewer light paths above it",
+       kAtLeastOne},
+      {"visualize_techniques", ParameterType::kBoolean, "false",
+       "writes what each technique contributes as layers technique.NAME"},
+      single_scattering_parameter()};
+  for (Parameter& parameter : entering_parameters()) own.push_back(std::move(parameter));
+  return with_common_parameters(std::move(own));
 }
 
 UpbpSettings settings_of(const Properties& properties) {
@@ -80,6 +82,8 @@ UpbpSettings settings_of(const Properties& properties) {
   own.memory = static_cast<size_t>(count("memory")) << 20;
   own.shows_techniques = properties.boolean("visualize_techniques");
   own.refraction = refraction_settings(properties);
+  own.table = table_settings(properties, path_settings(properties));
+  own.entering = entering_settings(properties);
   return own;
 }
 

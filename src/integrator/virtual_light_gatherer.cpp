@@ -14,6 +14,11 @@ Spectrum LightLines::through(const Scatterer& place, const SurfaceEvent* surface
 Spectrum LightLines::shadowed(const Scatterer& place, const Scatterer& light, const Traveller& traveller) const {
   const Spectrum value = unshadowed(place, light, settings_);
   if (value.is_black()) return value;
+  if (place.medium()) {
+    const Vec3 wi = normalize(light.position() - place.position());
+    if (!path_.visit_counts(place.medium(), place.visit_order_towards(wi) + light.visit_order_towards(-wi)))
+      return Spectrum(0.0f);
+  }
   const auto surface = place.is_surface() ? place.vertex().surface_event() : std::nullopt;
   return through(place, surface ? &*surface : nullptr, light, value, traveller);
 }
@@ -74,6 +79,10 @@ void VirtualLightGatherer::on_passage(const Ray& way, const Medium& medium, cons
                     else
                       shade(event, at, traveller);
                   });
+  if (entering_ && std::isfinite(way.t_max)) {
+    Rng rng = sampler_.aside(Purpose::kTableAlongWay, way.origin, way.direction);
+    add(kOrderClasses, entering_->along(way, medium, state, plan_.table_samples, rng));
+  }
   const HomogeneousMedium* homogeneous = medium.as_homogeneous();
   if (!plan_.rays || !(way.t_max > 0) || !std::isfinite(way.t_max) || state.throughput.is_black()) return;
   if (homogeneous && homogeneous->sigma_s().is_black()) return;

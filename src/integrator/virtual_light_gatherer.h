@@ -1,4 +1,5 @@
 #pragma once
+#include "integrator/entering_lights.h"
 #include "integrator/light_gatherer.h"
 #include "manylight/light_sampler.h"
 #include "manylight/segment_pairs.h"
@@ -19,14 +20,15 @@ struct ShadingPlan {
   /// directly.
   bool rays = false;
   const RefractiveScattering* refraction = nullptr;  ///< finds some of the light; null: these lights bring all of it
+  int table_samples = 4;  ///< entering lights asked for at each place or way, where there are tables
 };
 
 /// Estimates of what one virtual light brings to places, with what stands between; black where nothing comes. For point
 /// lights at a place there is nothing to draw.
 class LightLines {
  public:
-  LightLines(const VirtualLights& lights, const LineSettings& settings, const Sampler& sampler)
-      : lights_(lights), settings_(settings), sampler_(sampler) {}
+  LightLines(const VirtualLights& lights, const ShadingPlan& plan, const Sampler& sampler)
+      : lights_(lights), settings_(plan.lines), path_(plan.path), sampler_(sampler) {}
 
   /// `traveller` stands at the place.
   Spectrum to_place(const Scatterer& place, size_t light, Rng& rng, const Traveller& traveller) const;
@@ -64,6 +66,7 @@ class LightLines {
 
   const VirtualLights& lights_;
   const LineSettings& settings_;
+  const PathSettings& path_;
   const Sampler& sampler_;
 };
 
@@ -72,13 +75,14 @@ class LightLines {
 /// former as in `volpath`.
 class VirtualLightGatherer : public ShadingRecorder {
  public:
-  /// `chooser` null: every light is asked.
-  VirtualLightGatherer(Kind kind, const ShadingPlan& plan, const VirtualLights& lights, LightSampler::Chooser* chooser,
-                       Sampler& sampler, SampleCounters& counters)
+  /// `chooser` null: every light is asked. `entering`: null without tables.
+  VirtualLightGatherer(Kind kind, const ShadingPlan& plan, const VirtualLights& lights, const EnteringLights* entering,
+                       LightSampler::Chooser* chooser, Sampler& sampler, SampleCounters& counters)
       : ShadingRecorder(kind),
         plan_(plan),
         lights_(lights),
-        lines_(lights, plan.lines, sampler),
+        entering_(entering),
+        lines_(lights, plan, sampler),
         chooser_(chooser),
         sampler_(sampler),
         counters_(counters) {}
@@ -129,6 +133,9 @@ class VirtualLightGatherer : public ShadingRecorder {
   void shade(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
     ask_lights(event, state, traveller);
     ask_virtual_lights(Vertex(event, state), traveller);
+    if (!entering_) return;
+    Rng rng = sampler_.aside(Purpose::kTableAtCollision, event.position, event.direction);
+    add(kOrderClasses, entering_->at_collision(event, state, plan_.table_samples, rng));
   }
   void ask_lights(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
     ask_lights(state, [&](const PathState& part) { direct_->at_collision(event, part, traveller); });
@@ -136,7 +143,8 @@ class VirtualLightGatherer : public ShadingRecorder {
   /// Next-event estimation several times, each for a part of the path's throughput.
   template <class Ask>
   void ask_lights(const PathState& state, const Ask& ask) {
-    const PathState part{state.throughput / static_cast<float>(plan_.direct_samples), state.depth, state.order};
+    const PathState part{state.throughput / static_cast<float>(plan_.direct_samples), state.depth, state.order,
+                         state.visit_order};
     for (int i = 0; i < plan_.direct_samples; ++i) ask(part);
   }
   void ask_virtual_lights(const Vertex& vertex, const Traveller& traveller);
@@ -152,6 +160,7 @@ class VirtualLightGatherer : public ShadingRecorder {
 
   const ShadingPlan& plan_;
   const VirtualLights& lights_;
+  const EnteringLights* entering_;
   LightLines lines_;
   LightSampler::Chooser* chooser_;
   Sampler& sampler_;

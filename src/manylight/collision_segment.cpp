@@ -12,6 +12,7 @@ CollisionSegment CollisionSegment::of_sensor(const Ray& way, const Medium& mediu
   segment.g_ = medium.phase().mean_cosine();
   segment.depth_ = state.depth + 1;
   segment.order_ = state.order + 1;
+  segment.visit_order_ = state.visit_order + 1;
   return segment;
 }
 

@@ -23,6 +23,7 @@ class CollisionSegment {
   float g() const { return g_; }
   int depth() const { return depth_; }  ///< of a collision on it
   int order() const { return order_; }
+  int visit_order() const { return visit_order_; }  ///< PathState::visit_order
 
   /// A collision at distance t, with what the walk brings to it per length; times 1 / (density of t).
   /// From a light: flux x sigma_s x T_i(t) / sum mix_j T_j(t), for the segment ends at t or before with the rest of the
@@ -32,7 +33,7 @@ class CollisionSegment {
     const auto density = static_cast<float>(1 / pdf_t);
     return Scatterer(event, PathState{homogeneous_ ? scattered_ * arriving(homogeneous_->transmittance(t)) * density
                                                    : scattered_at(event.position, t, sampler) * density,
-                                      depth_, order_});
+                                      depth_, order_, visit_order_});
   }
 
  private:
@@ -52,7 +53,7 @@ class CollisionSegment {
   Spectrum throughput_, mix_;
   Spectrum scattered_;  ///< throughput x sigma_s, where the medium is homogeneous
   float g_ = 0;
-  int depth_ = 0, order_ = 0;
+  int depth_ = 0, order_ = 0, visit_order_ = 0;
   bool from_light_ = false;
 };
 

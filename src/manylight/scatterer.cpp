@@ -11,9 +11,11 @@ Scatterer::Scatterer(const Vertex& vertex, TransportMode mode)
       vertex_(&vertex),
       depth_(vertex.depth),
       order_(vertex.order),
+      visit_order_(vertex.visit_order),
       mode_(mode) {
   if (!vertex.is_surface()) {
     kind_ = Kind::kCollision;
+    medium_ = vertex.medium;
     phase_ = &vertex.medium->phase();
     return;
   }

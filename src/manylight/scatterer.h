@@ -18,10 +18,12 @@ class Scatterer {
         other_normal_(0),
         given_(-event.direction),
         scale_(state.throughput),
+        medium_(&event.medium),
         phase_(&event.medium.phase()),
         vertex_(nullptr),
         depth_(state.depth),
         order_(state.order),
+        visit_order_(state.visit_order),
         kind_(Kind::kCollision),
         mode_(TransportMode::kRadiance) {}
 
@@ -32,6 +34,12 @@ class Scatterer {
   Vec3 leave(const Vec3& direction) const { return is_surface() ? vertex_->point.leave(direction) : position_; }
   int depth() const { return depth_; }
   int order() const { return order_; }
+  /// Vertex::visit_order_towards.
+  int visit_order_towards(const Vec3& chosen) const {
+    return is_surface() ? vertex_->visit_order_towards(chosen) : visit_order_;
+  }
+  /// Of collisions: the medium they are in; else null.
+  const Medium* medium() const { return medium_; }
   bool is_surface() const { return kind_ != Kind::kCollision; }
   /// Surfaces: the normal by which cosines go, on the side that scatters diffusely.
   const Vec3& normal() const { return normal_; }
@@ -61,9 +69,10 @@ class Scatterer {
 
   Vec3 position_, normal_, other_normal_, given_;
   Spectrum scale_;
+  const Medium* medium_ = nullptr;
   const PhaseFunction* phase_ = nullptr;
   const Vertex* vertex_;
-  int depth_, order_;
+  int depth_, order_, visit_order_;
   Kind kind_ = Kind::kAny;
   TransportMode mode_;
 };

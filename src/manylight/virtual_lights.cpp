@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kGrain = 64;  ///< paths per task
 /// Keeps the streams of virtual lights and of the pilot apart from all others.
-constexpr uint64_t kLightsStream = 0x76706cull, kPilotSet = ~uint64_t{0};
+constexpr uint64_t kLightsStream = 0x76706cull, kRouletteStream = 0x726f756cull, kPilotSet = ~uint64_t{0};
 
 /// What light paths leave.
 struct Left {
@@ -27,13 +27,29 @@ struct Left {
 
 class LightKeeper : public WalkRecorder {
  public:
-  LightKeeper(Left& left, float scale, bool rays) : left_(left), scale_(scale), rays_(rays) {}
+  LightKeeper(const VirtualLightPlan& plan, Left& left, float scale)
+      : left_(left),
+        start_scale_(scale),
+        scale_(scale),
+        rays_(plan.rays),
+        joined_visit_order_(plan.joined_visit_order),
+        roulette_(plan.known_media) {}
+
+  /// For a new walk, whose choices beside the path go by `name`.
+  void begin(uint64_t name) {
+    roulette_.begin(Rng(name));
+    rng_ = Rng(hash_counters(name));
+    scale_ = start_scale_;
+  }
 
   void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg&) {
     const HomogeneousMedium* homogeneous = medium.as_homogeneous();
     if (!rays_ || !homogeneous || medium.sigma_s().is_black() || state.throughput.is_black()) return;
-    if (way.t_max > 0 && std::isfinite(way.t_max))
-      left_.rays.push_back(CollisionSegment::of_light(way, *homogeneous, state, scale_));
+    if (!(way.t_max > 0 && std::isfinite(way.t_max))) return;
+    const bool for_surfaces = state.visit_order > joined_visit_order_ && roulette_.holds(&medium);
+    if (for_surfaces && rng_.next_float() >= kShareForSurfaces) return;
+    left_.rays.push_back(
+        CollisionSegment::of_light(way, *homogeneous, state, for_surfaces ? scale_ / kShareForSurfaces : scale_));
   }
   void at_surface(const SurfaceEvent& event, const PathState& state, const Traveller& traveller) {
     if (event.object.bsdf->flags() & lobe::kSmooth && !state.throughput.is_black())
@@ -42,11 +58,21 @@ class LightKeeper : public WalkRecorder {
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller&) {
     if (!rays_ || !event.medium.as_homogeneous()) left_.vertices.emplace_back(event, state).throughput *= scale_;
   }
+  void left_collision(const CollisionEvent& event, float, const Vec3&, const PathState& state, const Traveller&) {
+    roulette_.left_collision(event.medium, state);
+    scale_ = start_scale_ * roulette_.scale();
+  }
+  bool goes_on() const { return roulette_.goes_on(); }
 
  private:
+  static constexpr float kShareForSurfaces = 0.25f;  ///< of ray lights that light surfaces alone
+
   Left& left_;
-  float scale_;  ///< 1 / paths
+  float start_scale_, scale_;  ///< 1 / paths; with the roulette's
   bool rays_;
+  int joined_visit_order_;
+  VisitRoulette roulette_;
+  Rng rng_;
 };
 
 Left trace(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
@@ -55,10 +81,11 @@ Left trace(const VirtualLightPlan& plan, size_t paths, uint64_t set, SampleCount
   parallel_for(parts.size(), [&](size_t task) {
     SampleCounters own;
     Sampler sampler(plan.scene.sampler(), hash_counters(plan.seed, kLightsStream));
-    LightKeeper keeper(parts[task], 1 / static_cast<float>(paths), plan.rays);
+    LightKeeper keeper(plan, parts[task], 1 / static_cast<float>(paths));
     LightWalk<LightKeeper> walk(plan.scene, plan.path, sampler, own, keeper);
     for (size_t path = task * kGrain; path < std::min(paths, (task + 1) * kGrain); ++path) {
       sampler.start(path, set);
+      keeper.begin(hash_counters(plan.seed, kRouletteStream, path, set));
       walk.run(plan.sources);
     }
     const std::lock_guard lock(mutex);

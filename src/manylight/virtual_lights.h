@@ -5,6 +5,7 @@
 #include "manylight/scatterer.h"
 #include "path/light_sources.h"
 #include "path/sample_counters.h"
+#include "path/visit_roulette.h"
 
 namespace turbid {
 
@@ -15,6 +16,10 @@ struct VirtualLightPlan {
   const PathSettings& path;
   uint64_t seed;
   bool rays = false;  ///< ray lights stand for collisions in homogeneous media
+  /// Where ways of the sensor are joined with few of the ray lights alone, for what comes after more collisions is
+  /// known from elsewhere: walks that have scattered often there are thinned out, ...
+  std::vector<const Medium*> known_media = {};
+  int joined_visit_order = 0;  ///< ... and ray lights after more collisions in the visit than this
 };
 
 /// Virtual point lights: the vertices of light paths where something scatters, collisions and surfaces with a smooth

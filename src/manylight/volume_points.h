@@ -40,7 +40,7 @@ void make_collisions(const Ray& way, const Medium& medium, const PathState& stat
     const Spectrum factor = arrives * medium.sigma_s_at(p) / (distance.pdf_t * static_cast<float>(points.count));
     if (factor.is_black()) continue;
     shade(CollisionEvent{p, way.direction, medium},
-          PathState{state.throughput * factor, state.depth + 1, state.order + 1});
+          PathState{state.throughput * factor, state.depth + 1, state.order + 1, state.visit_order + 1});
   }
 }
 

@@ -11,7 +11,15 @@ struct PathState {
   Spectrum throughput;
   int depth;  ///< edges behind
   int order;  ///< collisions in media behind, with this one
+  /// Of these, the ones of this visit to the medium: since the walk came into it through a boundary, or left a light or
+  /// an opaque surface in it. Reflection at a boundary that bends light does not end a visit (S1 sect. 3.1).
+  int visit_order = 0;
 };
+
+/// Reflection at this surface does not end a visit to a medium: it bends light, and is no mere passage.
+inline bool keeps_visit(const Bsdf& bsdf) {
+  return bsdf.flags() & lobe::kTransmission && !(bsdf.flags() & lobe::kNull);
+}
 
 /// A surface that a walk has arrived at.
 struct SurfaceEvent {

@@ -12,7 +12,7 @@ struct Vertex {
   Vec3 position;
   Vec3 given;           ///< unit, to where the walk comes from
   Spectrum throughput;  ///< PathState::throughput: all but the vertex's own scattering
-  int depth = 0, order = 0;
+  int depth = 0, order = 0, visit_order = 0;
   bool bent = false;               ///< walks from a light: CountedLight::is_bent
   const Medium* medium = nullptr;  ///< on the side of `given`; null: vacuum
   const Object* object = nullptr;  ///< null: a collision
@@ -27,6 +27,7 @@ struct Vertex {
         throughput(state.throughput),
         depth(state.depth),
         order(state.order),
+        visit_order(state.visit_order),
         medium(&event.medium),
         events(event.medium.proxy_sigma_t(event.position)) {}
   Vertex(const SurfaceEvent& event, const PathState& state, const Medium* around)
@@ -35,6 +36,7 @@ struct Vertex {
         throughput(state.throughput),
         depth(state.depth),
         order(state.order),
+        visit_order(state.visit_order),
         medium(around),
         object(&event.object),
         point(event.point),
@@ -52,6 +54,13 @@ struct Vertex {
   /// On the side that the direction leads to. Not for scenes with priorities.
   const Medium* medium_towards(const Vec3& direction) const {
     return is_surface() && object->bounds_media ? object->medium_towards(point.ng, direction) : medium;
+  }
+
+  /// Collisions so far in the visit to a medium that goes on towards `chosen` (PathState::visit_order).
+  int visit_order_towards(const Vec3& chosen) const {
+    if (!is_surface()) return visit_order;
+    const bool reflects = dot(chosen, point.ng) * dot(given, point.ng) > 0;
+    return reflects && keeps_visit(*object->bsdf) ? visit_order : 0;
   }
 
   struct Scattering {

@@ -47,9 +47,9 @@ struct WalkRecorder {
 /// for shading normals) and how they begin. kSeesMedia false: media are ignored, and passing straight through a surface
 /// is an event like any other.
 ///
-/// Depths count edges and orders collisions; with media, null surfaces cost nothing. Vertices are reported as long as
-/// max_depth allows one more edge and max_scattering their order; min_scattering and hide_emitters are left to the
-/// recorder.
+/// Depths count edges and orders collisions (all of them, and those of the visit to a medium); with media, null
+/// surfaces cost nothing. Vertices are reported as long as max_depth allows one more edge and max_scattering their
+/// order; min_scattering and hide_emitters are left to the recorder.
 template <TransportMode kMode, bool kSeesMedia, class Recorder>
 class Walk {
  public:
@@ -66,7 +66,7 @@ class Walk {
   float run(const SensorRay& camera) requires(kMode == TransportMode::kRadiance) {
     throughput_ = Spectrum(camera.weight);
     inverse_start_ = eta_scale_ = 1;
-    depth_ = order_ = 0;
+    depth_ = order_ = visit_order_ = 0;
     alpha_ = 0;
     if (settings_.max_depth <= 0) return alpha_;
     traveller_.start(camera.ray, scene_.sensor_medium(), scene_.sensor_media());
@@ -88,7 +88,7 @@ class Walk {
     if (!emission) return;
     throughput_ = emission->throughput;
     inverse_start_ = 1 / throughput_.max();
-    depth_ = order_ = 0;
+    depth_ = order_ = visit_order_ = 0;
     traveller_.start({emission->ray.origin, emission->ray.direction}, emission->medium, emission->media);
     recorder_.at_emitter(*emission, traveller_);
     if (settings_.max_depth >= 2) follow();
@@ -97,9 +97,9 @@ class Walk {
  private:
   static constexpr bool kFromLight = kMode == TransportMode::kImportance;
 
-  PathState state() const { return {throughput_, depth_, order_}; }
+  PathState state() const { return {throughput_, depth_, order_, visit_order_}; }
   /// At the end of the edge that is being walked.
-  PathState state_ahead() const { return {throughput_, depth_ + 1, order_}; }
+  PathState state_ahead() const { return {throughput_, depth_ + 1, order_, visit_order_}; }
 
   void follow() {
     while (true) {
@@ -143,7 +143,9 @@ class Walk {
     ++counters_.collisions;
     alpha_ = 1;
     ++order_;
+    ++visit_order_;
     if (++depth_ >= settings_.max_depth || order_ > settings_.max_scattering || throughput_.is_black()) return false;
+    if (!settings_.visit_counts(traveller_.medium(), visit_order_)) return false;
     const CollisionEvent event{traveller_.ray().origin, traveller_.ray().direction, *traveller_.medium()};
     recorder_.at_collision(event, state(), traveller_);
     const Vec2 u = sampler_.next_2d();
@@ -158,7 +160,7 @@ class Walk {
     const Object& object = scene_.object(hit);
     const SurfacePoint point = object.shape->surface_point(traveller_.ray(), hit);
     if (traveller_.hides(object)) {
-      traveller_.pass_surface(object, point, hit.t);
+      pass_surface(object, point, hit.t);
       return true;
     }
     if (!kFromLight && object.emitter) recorder_.at_light(hit, object, point, state_ahead(), traveller_);
@@ -181,7 +183,7 @@ class Walk {
     if (kSeesMedia && straight) {
       --depth_;
       recorder_.passed_surface(bsdf.null_transmission(point, event.given_local));
-      traveller_.pass_surface(object, point, hit.t);
+      pass_surface(object, point, hit.t);
       throughput_ *= sample->weight;
       return !throughput_.is_black();
     }
@@ -192,6 +194,7 @@ class Walk {
       throughput_ *= adjoint_correction(point, given, chosen);
     else
       eta_scale_ *= sqr(sample->eta);
+    if (!(sample->flags & lobe::kReflection && keeps_visit(bsdf))) visit_order_ = 0;
     traveller_.leave(object, point, chosen);
     recorder_.left_surface(event, *sample, chosen, state(), traveller_);
     if (depth_ >= settings_.max_depth || throughput_.is_black()) return false;
@@ -202,8 +205,15 @@ class Walk {
   bool pass_straight(const SurfaceEvent& event, float t, const Spectrum& through) {
     recorder_.passed_surface(through);
     throughput_ *= through;
-    traveller_.pass_surface(event.object, event.point, t);
+    pass_surface(event.object, event.point, t);
     return !kFromLight || !throughput_.is_black();
+  }
+
+  /// Another medium behind the surface is another visit.
+  void pass_surface(const Object& object, const SurfacePoint& point, float t) {
+    const Medium* before = traveller_.medium();
+    traveller_.pass_surface(object, point, t);
+    if (traveller_.medium() != before) visit_order_ = 0;
   }
 
   /// Russian roulette: survives with the share of the initial flux or importance that is left (but for the scaling of
@@ -236,6 +246,7 @@ class Walk {
   float eta_scale_ = 1;      ///< squared index here / at the sensor, for walks from there
   float alpha_ = 0;
   int depth_ = 0, order_ = 0;
+  int visit_order_ = 0;  ///< PathState::visit_order
 };
 
 template <class Recorder>

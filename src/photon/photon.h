@@ -16,6 +16,7 @@ struct PhotonPoint {
   double near = 0, far = 0;
   int depth = 0, order = 0;  ///< edges and collisions with the point
   bool bent = false;         ///< CountedLight::is_bent
+  int visit_order = 0;       ///< PathState::visit_order
 
   PhotonPoint(const Vec3& p, const Vec3& travel, const PathState& state, const StrategyWeights& weights,
               const StrategySums& sums)
@@ -25,7 +26,8 @@ struct PhotonPoint {
         near(weights.power(sums.inverse_pdf) * sums.joint),
         far(weights.power(sums.inverse_pdf) * sums.behind),
         depth(state.depth),
-        order(state.order) {}
+        order(state.order),
+        visit_order(state.visit_order) {}
 
   double beside_merge(const StrategyWeights& weights, double pdf_back_w) const {
     return near + weights.power(pdf_back_w) * far;
@@ -41,6 +43,7 @@ struct PhotonBeam {
   uint32_t emission = 0;     ///< of the light path, see PhotonMap
   int depth = 0, order = 0;  ///< edges and collisions before the flight
   bool bent = false;         ///< CountedLight::may_collide
+  int visit_order = 0;       ///< PathState::visit_order
 
   const Ray& ray() const { return segment.ray; }
 };

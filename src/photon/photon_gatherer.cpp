@@ -42,6 +42,8 @@ void PhotonGatherer::at_surface(const Vertex& vertex, ContributionSink& sink, Me
     if (dot(photon.ng, vertex.point.ng) < kSameSurface || !counts(vertex.depth + photon.depth, order, photon.bent))
       return;
     const Vec3 wi = -photon.direction;
+    if (vertex.medium && !path_.visit_counts(vertex.medium, vertex.visit_order_towards(wi) + photon.visit_order))
+      return;
     const Vertex::Scattering scattered = vertex.scatter(wi, TransportMode::kRadiance);
     if (scattered.value.is_black()) return;
     const double merged = weights_.merged_at_surface();
@@ -71,6 +73,7 @@ void PhotonGatherer::points_at(const Vertex& vertex, ContributionSink& sink, Mer
     const int order = vertex.order - 1 + photon.order;
     if (!(length_squared(photon.position - vertex.position) < sqr(radius))) return;
     if (photon.medium != &medium || !counts(vertex.depth + photon.depth, order, photon.bent)) return;
+    if (!path_.visit_counts(&medium, vertex.visit_order - 1 + photon.visit_order)) return;
     const float mu = dot(photon.direction, vertex.given);
     const float f = medium.phase().eval(mu);
     const Merges merges = merges_at(weights_, medium, mu);
@@ -96,6 +99,7 @@ void PhotonGatherer::beams_at(const Vertex& vertex, ContributionSink& sink, Merg
     const PhotonBeam& beam = map_.photons.beams[number];
     const int order = vertex.order + beam.order;
     if (beam.medium != medium || !counts(vertex.depth + beam.depth + 1, order, beam.bent)) return;
+    if (!path_.visit_counts(medium, vertex.visit_order + beam.visit_order)) return;
     const float t = nearest_within(beam.ray(), vertex.position, radius);
     if (t > 0 && t >= from && t < to) work.found.push_back({number, {0, t, 0}});
   });

@@ -70,6 +70,7 @@ class PhotonGatherer {
     LightSegment segment;  ///< `flux`: the walk's throughput
     const HomogeneousMedium& medium;
     int depth, order;  ///< edges and collisions before it
+    int visit_order;   ///< PathState::visit_order
   };
   /// Along a flight: P-B2D, B-B1D. `sums_at(t)`: the walk's StrategySums at distance t.
   template <class SumsAt>
@@ -116,6 +117,7 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
       const PhotonPoint& photon = map_.photons.collisions[number];
       const int order = flight.order + photon.order;
       if (photon.medium != &medium || !counts(sensor_depth + photon.depth, order, photon.bent)) return;
+      if (!path_.visit_counts(&medium, flight.visit_order + photon.visit_order)) return;
       const float t = nearest_within(ray, photon.position, radii_.point_beam);
       if (!(t > 0)) return;
       const float mu = -dot(photon.direction, ray.direction);
@@ -137,6 +139,7 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
       const PhotonBeam& beam = map_.photons.beams[number];
       const int order = flight.order + beam.order + 1;
       if (beam.medium != &medium || !counts(sensor_depth + beam.depth + 1, order, beam.bent)) return;
+      if (!path_.visit_counts(&medium, flight.visit_order + beam.visit_order + 1)) return;
       const auto crossing = find_crossing(ray, beam.ray(), radii_.beam_beam);
       if (crossing && crossing->on_second >= from && crossing->on_second < to)
         work.found.push_back({number, *crossing});

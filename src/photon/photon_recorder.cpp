@@ -19,7 +19,7 @@ void PhotonRecorder::on_segment(const Ray& way, const Medium& medium, const Path
     if (segment.ray.t_max > 0)
       result_->beams.push_back({segment, homogeneous, edge_, straight_,
                                 static_cast<uint32_t>(result_->emissions.size() - 1), state.depth, state.order,
-                                counted_.may_collide(medium)});
+                                counted_.may_collide(medium), state.visit_order});
   }
   LightRecorder::on_segment(way, medium, state, leg);
 }

@@ -113,6 +113,15 @@ Spectrum MultipleScattering::source_radiance(const Stretch& light, const Vec3& x
   return result;
 }
 
+Spectrum MultipleScattering::source_radiance(std::span<const WeightedStretch> lights, const Vec3& x,
+                                             const Vec3& w) const {
+  if (lights.size() == 1 && lights[0].weight == 1) return source_radiance(lights[0].stretch, x, w);
+  Spectrum sum(0.0f);
+  for (const WeightedStretch& light : lights) sum += source_radiance(light.stretch, x, w) * light.weight;
+  for (int c = 0; c < kChannels; ++c) sum[c] = std::max(sum[c], 0.0f);
+  return sum;
+}
+
 template <class Source>
 Spectrum MultipleScattering::integrate(const Stretch& view, float nearest, float distance, float u, int samples,
                                        const Source& source) const {
@@ -142,7 +151,9 @@ Spectrum MultipleScattering::radiance(const Vec3& at, const Vec3& direction, con
                    [&](const Vec3& x, const Vec3& w) { return source_radiance(at, direction, x, w); });
 }
 
-Spectrum MultipleScattering::radiance(const Stretch& light, const Stretch& view, float u, int samples) const {
+Spectrum MultipleScattering::radiance(std::span<const WeightedStretch> lights, const Stretch& view, float u,
+                                      int samples) const {
+  const Stretch& light = lights.front().stretch;
   // The nearest points of both lines; on the light's stretch within the mean free path that most of it collides in.
   const Vec3 between = light.origin - view.origin;
   const float cosine = dot(light.direction, view.direction);
@@ -154,7 +165,7 @@ Spectrum MultipleScattering::radiance(const Stretch& light, const Stretch& view,
   const float nearest = dot(at - view.origin, view.direction);
   const float distance = length(at - view.origin - view.direction * nearest);
   return integrate(view, nearest, distance, u, samples,
-                   [&](const Vec3& x, const Vec3& w) { return source_radiance(light, x, w); });
+                   [&](const Vec3& x, const Vec3& w) { return source_radiance(lights, x, w); });
 }
 
 }  // namespace turbid

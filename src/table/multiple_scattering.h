@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 
 #include "core/spectrum.h"
 #include "medium/homogeneous.h"
@@ -12,6 +13,12 @@ namespace turbid {
 struct Stretch {
   Vec3 origin, direction;
   float length;
+};
+
+/// One of several sources whose light adds up; of negative weight where it takes away.
+struct WeightedStretch {
+  Stretch stretch;
+  float weight;
 };
 
 /// Light of the third and higher orders of scattering in a homogeneous medium that goes on for ever: the four queries
@@ -41,12 +48,20 @@ class MultipleScattering {
   /// shorter than 0.2 mean free paths, three for those shorter than 1, else two.
   Spectrum source_radiance(const Stretch& light, const Vec3& x, const Vec3& w) const;
 
+  /// Of several stretches; nowhere negative.
+  Spectrum source_radiance(std::span<const WeightedStretch> lights, const Vec3& x, const Vec3& w) const;
+
   /// Point to segment (S1 eq. 8): along `view`, which leads away from the sensor. By `2 samples` stratified points,
   /// half of them spread like the transmittance (of the channels' mean), half like the inverse square of the distance
   /// to the light; unbiased over u in [0,1), which shifts both.
   Spectrum radiance(const Vec3& at, const Vec3& direction, const Stretch& view, float u, int samples = 4) const;
   /// Segment to segment (S1 eq. 11): the points are spread about the place where the two come closest.
-  Spectrum radiance(const Stretch& light, const Stretch& view, float u, int samples = 4) const;
+  Spectrum radiance(const Stretch& light, const Stretch& view, float u, int samples = 4) const {
+    const WeightedStretch one[] = {{light, 1}};
+    return radiance(one, view, u, samples);
+  }
+  /// The points are spread about the first of the lights.
+  Spectrum radiance(std::span<const WeightedStretch> lights, const Stretch& view, float u, int samples = 4) const;
 
   /// The mean of the channels' extinction, 1/unit.
   float mean_sigma_t() const { return mean_sigma_t_; }

@@ -1,0 +1,46 @@
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "scene/scene.h"
+#include "table/multiple_scattering.h"
+
+namespace turbid {
+
+/// The plane that touches a medium's boundary somewhere.
+struct BoundaryPlane {
+  Vec3 point, normal;   ///< normal: unit, out of the medium
+  float extrapolation;  ///< how far outside of it the fluence would fall to 0, 2 A D; a length
+  float share = 1;      ///< how much of its images counts
+};
+using BoundaryPlanes = std::vector<BoundaryPlane>;
+
+/// Where the boundaries of media are, and what they do to diffuse light.
+///
+/// Light that has scattered often obeys phi + 2 A D dphi/dn = 0 there (D = 1/(3 sigma_t (1 - g albedo)), A = (1 + r2) /
+/// (1 - r1) by the moments of what the boundary reflects inside, 1 where nothing is). In a half-space the field of a
+/// source is then that of the source, of its mirror image, and of a line of negative images behind that, of density
+/// 2 exp(-s / 2AD) / 2AD at the distance s: nothing is lost where the boundary reflects all, and without reflection it
+/// is nearly the one negative image of the extrapolated boundary. The whole field of the table is mirrored, not its
+/// diffuse part alone.
+class Boundaries {
+ public:
+  /// `media`: that planes are asked for. The scene must stay.
+  Boundaries(const Scene& scene, const std::vector<const Medium*>& media);
+
+  /// The boundaries behind and before a walk through the medium, seen from x along its direction. That before it counts
+  /// as far as it faces the other: where a walk grazes the boundary both are the same.
+  BoundaryPlanes around(const Vec3& x, const Vec3& direction, const Medium& medium) const;
+
+ private:
+  std::optional<BoundaryPlane> towards(const Ray& line, const Medium& medium) const;
+
+  const Scene& scene_;
+  std::vector<float> factors_;        ///< A of each object, seen from inside
+  std::vector<float> outer_factors_;  ///< ... from outside
+};
+
+/// The light of a stretch with its images by the planes. Images of images are left out.
+std::vector<WeightedStretch> images_of(const Stretch& light, const BoundaryPlanes& planes);
+
+}  // namespace turbid

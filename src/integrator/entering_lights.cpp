@@ -1,0 +1,162 @@
+#include "integrator/entering_lights.h"
+
+#include <array>
+#include <mutex>
+
+#include "core/parallel.h"
+
+namespace turbid {
+namespace {
+
+constexpr size_t kGrain = 64;  ///< paths per task
+/// Keep streams apart.
+constexpr uint64_t kEnteringStream = 0x656e746572ull, kRouletteStream = 0x726f756cull, kPilotSet = ~uint64_t{0};
+/// The share of the choice that goes by strength alone: what is expected of a light may be wrong.
+constexpr float kByStrength = 0.1f;
+
+/// So many lights, spread over the set, are considered at one place.
+constexpr size_t kConsidered = 512;
+
+/// Which orders count is for what the light brings to say.
+PathSettings all_orders(PathSettings settings) {
+  settings.min_scattering = 0;
+  settings.max_scattering = PathSettings::kUnlimited;
+  return without_visit_limit(settings);
+}
+
+std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
+  const PathSettings settings = all_orders(plan.path);
+  std::vector<std::vector<EnteringLight>> parts((paths + kGrain - 1) / kGrain);
+  std::mutex mutex;
+  parallel_for(parts.size(), [&](size_t task) {
+    SampleCounters own;
+    Sampler sampler(plan.scene.sampler(), hash_counters(plan.seed, kEnteringStream));
+    EnteringLightKeeper keeper(plan.scene, plan.table, own, 1 / static_cast<float>(paths));
+    LightWalk<EnteringLightKeeper> walk(plan.scene, settings, sampler, own, keeper);
+    for (size_t path = task * kGrain; path < std::min(paths, (task + 1) * kGrain); ++path) {
+      sampler.start(path, set);
+      keeper.begin(Rng(hash_counters(plan.seed, kRouletteStream, path, set)));
+      walk.run(plan.sources);
+    }
+    parts[task] = keeper.entered();
+    const std::lock_guard lock(mutex);
+    counters.add(own);
+  });
+  std::vector<EnteringLight> all;
+  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<Parameter> entering_parameters() {
+  std::vector<Parameter> parameters = table_parameters();
+  parameters.push_back({"entering_lights", ParameterType::kInteger, "4000",
+                        "about so many ways of light in a set that tables begin with", kAtLeastOne});
+  parameters.push_back({"table_samples", ParameterType::kInteger, "4",
+                        "of these asked for at each place, or on each way, of the sensor's walks", kAtLeastOne});
+  return parameters;
+}
+
+EnteringLightsSettings entering_settings(const Properties& properties) {
+  const auto count = [&](const char* name) { return std::min<int64_t>(properties.integer(name), int64_t{1} << 30); };
+  return {static_cast<size_t>(count("entering_lights")), static_cast<int>(count("table_samples"))};
+}
+
+EnteringLights::Group::Group(const HomogeneousMedium* m) : medium(m) {
+  const float g = m->phase().mean_cosine(), sigma_t = m->sigma_t().mean();
+  const float albedo = m->sigma_s().mean() / sigma_t;
+  free_path = 1 / sigma_t;
+  transport_path = 1 / (sigma_t * (1 - g * albedo));
+  decay = kInfinity;
+  for (int c = 0; c < kChannels; ++c) {
+    const float a = m->albedo()[c];
+    if (a > 0) decay = std::min(decay, m->sigma_t()[c] * std::sqrt(3 * (1 - a) * (1 - g * a)));
+  }
+}
+
+void EnteringLights::Group::add(const EnteringLight& light) {
+  lights.push_back(light);
+  places.push_back(light.way.origin + light.way.direction * std::min(light.way.length, transport_path));
+  // Of a short way most comes out again unscattered.
+  strengths.push_back(light.flux.mean() * -std::expm1(-light.way.length / free_path));
+}
+
+EnteringLights::EnteringLights(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters)
+    : table_(plan.table), path_(plan.path) {
+  for (const Medium* medium : table_.media()) groups_.emplace_back(medium->as_homogeneous());
+  for (const EnteringLight& light : trace(plan, paths, set, counters))
+    for (Group& group : groups_)
+      if (group.medium == light.medium) group.add(light);
+}
+
+size_t EnteringLights::size() const {
+  size_t sum = 0;
+  for (const Group& group : groups_) sum += group.lights.size();
+  return sum;
+}
+
+/// Lights are drawn systematically, with probabilities in proportion to what diffusion would bring from about where
+/// each has lost its direction to `seen`, from every so many of the set: bring(light) times the inverse of the expected
+/// number.
+template <class Bring>
+Spectrum EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const {
+  const auto found =
+      std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) { return group.medium == &medium; });
+  if (found == groups_.end() || found->lights.empty()) return Spectrum(0.0f);
+  const Group& group = *found;
+  const size_t size = group.lights.size(), stride = (size + kConsidered - 1) / kConsidered;
+  const size_t first = std::min(static_cast<size_t>(rng.next_float() * static_cast<float>(stride)), stride - 1);
+  std::array<float, kConsidered> weights;
+  double near = 0, strength = 0;
+  for (size_t i = first, k = 0; i < size; i += stride, ++k) {
+    const float distance = length(group.places[i] - seen);
+    const float x = group.decay * distance;
+    // exp(-x) / distance, nearly; never 0.
+    weights[k] = group.strengths[i] / ((distance + group.transport_path) * (1 + x * (1 + x * (0.5f + x / 6))));
+    near += static_cast<double>(weights[k]);
+    strength += static_cast<double>(group.strengths[i]);
+  }
+  if (!(near > 0) || !(strength > 0)) return Spectrum(0.0f);
+  const auto by_near = (1 - static_cast<double>(kByStrength)) / near;
+  const auto by_strength = static_cast<double>(kByStrength) / strength;
+  Spectrum sum(0.0f);
+  double next = rng.next_double(), expected = 0;
+  for (size_t i = first, k = 0; i < size; i += stride, ++k) {
+    const double own =
+        count * (static_cast<double>(weights[k]) * by_near + static_cast<double>(group.strengths[i]) * by_strength);
+    for (expected += own; next < expected; ++next) sum += bring(group.lights[i]) / static_cast<float>(own);
+  }
+  return sum * static_cast<float>(stride);
+}
+
+Spectrum EnteringLights::along(const Ray& way, const Medium& medium, const PathState& state, int count,
+                               Rng& rng) const {
+  if (state.visit_order > 0 || state.throughput.is_black() || !table_.holds(&medium) || !(way.t_max > 0))
+    return Spectrum(0.0f);
+  const float free_path = 1 / medium.sigma_t().mean();
+  const Vec3 seen = way.at(std::min(way.t_max / 2, free_path));
+  const auto boundaries = table_.boundaries_around(seen, way.direction, medium);
+  return ask(medium, seen, count, rng,
+             [&](const EnteringLight& light) { return table_.along(light, boundaries, way, state, path_, rng); });
+}
+
+Spectrum EnteringLights::at_collision(const CollisionEvent& event, const PathState& state, int count, Rng& rng) const {
+  if (state.visit_order != 1 || state.throughput.is_black() || !table_.holds(&event.medium)) return Spectrum(0.0f);
+  const auto boundaries = table_.boundaries_around(event.position, event.direction, event.medium);
+  return ask(event.medium, event.position, count, rng, [&](const EnteringLight& light) {
+    return table_.at_collision(light, boundaries, event, state, path_, rng);
+  });
+}
+
+size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) {
+  constexpr size_t kPilotPaths = 4096;
+  constexpr double kLeastPerPath = 0.001;
+  SampleCounters counters;
+  const double per_path =
+      static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).size()) / static_cast<double>(kPilotPaths);
+  const double paths = static_cast<double>(lights) / std::max(per_path, kLeastPerPath);
+  return std::max<size_t>(1, static_cast<size_t>(std::lround(paths)));
+}
+
+}  // namespace turbid

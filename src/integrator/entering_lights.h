@@ -1,0 +1,62 @@
+#pragma once
+#include "integrator/table_light.h"
+
+namespace turbid {
+
+struct EnteringLightsSettings {
+  size_t lights = 4000;  ///< about so many in a set
+  int samples = 4;       ///< of these asked for at each place or way
+};
+/// The parameters of tables (table_parameters) and of these settings, and what the latter say.
+std::vector<Parameter> entering_parameters();
+EnteringLightsSettings entering_settings(const Properties& properties);
+
+/// What walks that make EnteringLights share.
+struct EnteringLightsPlan {
+  const Scene& scene;
+  const LightSources& sources;
+  const PathSettings& path;  ///< of the picture; light walks on whatever orders count
+  const TableLight& table;
+  uint64_t seed;
+};
+
+/// Light of many paths that has entered media with tables: the tables' sources for a whole picture, shared by all its
+/// pixels. A walk from the sensor asks some of them, chosen by about what each should bring. Immutable, shared between
+/// threads.
+class EnteringLights {
+ public:
+  /// Traces `paths` light paths; `set` tells one set from another. The lights come in the order of the paths, whatever
+  /// the threads do.
+  EnteringLights(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters);
+
+  size_t size() const;
+
+  /// The table's light along a way of the sensor's walk, of finite length up to the next surface, `state` at its
+  /// beginning; black unless it has entered a medium with a table unscattered. Asks `count` lights.
+  Spectrum along(const Ray& way, const Medium& medium, const PathState& state, int count, Rng& rng) const;
+  /// The same at a collision, the first one of a visit.
+  Spectrum at_collision(const CollisionEvent& event, const PathState& state, int count, Rng& rng) const;
+
+ private:
+  struct Group {
+    const HomogeneousMedium* medium;
+    std::vector<EnteringLight> lights;
+    std::vector<Vec3> places;  ///< about where each has lost its direction
+    std::vector<float> strengths;
+    float free_path, transport_path;  ///< mean ones, of the channels' mean
+    float decay;                      ///< 1/length, far away, of the channel that reaches farthest
+    explicit Group(const HomogeneousMedium* m);
+    void add(const EnteringLight& light);
+  };
+  template <class Bring>
+  Spectrum ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const;
+
+  const TableLight& table_;
+  const PathSettings& path_;
+  std::vector<Group> groups_;
+};
+
+/// How many light paths make about so many entering lights; found by a pilot that depends on the plan alone.
+size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights);
+
+}  // namespace turbid

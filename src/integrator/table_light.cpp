@@ -1,0 +1,134 @@
+#include "integrator/table_light.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "core/log.h"
+#include "gathering/sensor_gatherer.h"
+#include "integrator/walked_scattering.h"
+#include "manylight/volume_points.h"
+
+namespace turbid {
+
+std::vector<Parameter> table_parameters() {
+  return {word("multiple_scattering", "path",
+               "light that scatters from_order times or more in one visit to a homogeneous medium: path (by this "
+               "method), table (looked up, as if the medium had no end), model (by random walks in a medium without "
+               "end, to check the table)",
+               {"path", "table", "model"}),
+          {"from_order",
+           ParameterType::kInteger,
+           "3",
+           "collisions in one visit from which on the table has them",
+           {.min = 3, .max = 5}},
+          word("boundary", "none",
+               "what becomes of the table's light at the boundary of the medium: none (it goes on as if the medium had "
+               "no end), image (a mirrored source at the boundary next to the sensor's path corrects it)",
+               {"none", "image"})};
+}
+
+TableSettings table_settings(const Properties& properties, const PathSettings& path) {
+  TableSettings settings;
+  const std::string source = properties.string("multiple_scattering");
+  settings.from_order = static_cast<int>(properties.integer("from_order"));
+  if (source == "path") return settings;
+  settings.source = source == "table" ? TableSettings::Source::kTable : TableSettings::Source::kModel;
+  if (properties.string("single_scattering") == "refractive")
+    properties.refuse("multiple_scattering", "a table goes with single_scattering = path alone");
+  settings.images = properties.string("boundary") == "image";
+  if (settings.images && source == "model") properties.refuse("boundary", "the model is that of a medium without end");
+  const std::string whole =
+      fmt::format("the table holds all orders from {} on at once (from_order): ", settings.from_order);
+  if (path.max_scattering != PathSettings::kUnlimited && path.max_scattering >= settings.from_order)
+    properties.refuse("max_scattering", whole + "use a limit below that, or -1");
+  if (path.min_scattering > settings.from_order) properties.refuse("min_scattering", whole + "use a limit up to that");
+  return settings;
+}
+
+TableLight::TableLight(const Scene& scene, const TableSettings& settings) : settings_(settings) {
+  for (const Surroundings& surroundings : scene.media()) {
+    const HomogeneousMedium* medium = surroundings.medium->as_homogeneous();
+    if (!medium) {
+      log_warning("multiple scattering in media that vary is left to the method: tables are for homogeneous ones");
+      continue;
+    }
+    if (medium->sigma_s().is_black()) continue;
+    try {
+      const bool walks = settings.source == TableSettings::Source::kModel;
+      entries_.push_back(
+          {medium, walks ? nullptr
+                         : std::make_unique<const MultipleScattering>(
+                               *medium, *find_table(medium->phase(), settings.request), settings.from_order)});
+    } catch (const std::invalid_argument& error) {
+      log_warning(fmt::format("multiple scattering in a medium is left to the method: {}", error.what()));
+    }
+  }
+  if (settings.images) boundaries_.emplace(scene, media());
+}
+
+std::vector<const Medium*> TableLight::media() const {
+  std::vector<const Medium*> result;
+  for (const Entry& entry : entries_) result.push_back(entry.medium);
+  return result;
+}
+
+const TableLight::Entry* TableLight::find(const Medium* medium) const {
+  for (const Entry& entry : entries_)
+    if (entry.medium == medium) return &entry;
+  return nullptr;
+}
+
+Spectrum TableLight::source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x,
+                                     const Vec3& w, Rng& rng) const {
+  const Entry* entry = find(light.medium);
+  if (!entry) return Spectrum(0.0f);
+  if (!boundaries.empty())
+    return light.flux * entry->scattering->source_radiance(images_of(light.way, boundaries), x, w);
+  return light.flux * (entry->scattering
+                           ? entry->scattering->source_radiance(light.way, x, w)
+                           : walk_source_radiance(*entry->medium, settings_.from_order, light.way, x, w, rng));
+}
+
+Spectrum TableLight::at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries,
+                                  const CollisionEvent& event, const PathState& state, const PathSettings& path,
+                                  Rng& rng) const {
+  if (light.medium != &event.medium || !counts(light, state.depth, state.order, path)) return Spectrum(0.0f);
+  // The walk's own albedo is in the table too: what remains is transmittance over density.
+  const Spectrum sigma_s = event.medium.sigma_s_at(event.position);
+  const Spectrum source = source_radiance(light, boundaries, event.position, -event.direction, rng);
+  Spectrum result(0.0f);
+  for (int c = 0; c < kChannels; ++c)
+    if (sigma_s[c] > 0) result[c] = state.throughput[c] * source[c] / sigma_s[c];
+  return result;
+}
+
+Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way,
+                           const PathState& state, const PathSettings& path, Rng& rng) const {
+  const Entry* entry = find(light.medium);
+  if (!entry || !counts(light, state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
+  const Stretch view{way.origin, way.direction, way.t_max};
+  if (entry->scattering && !boundaries.empty())
+    return state.throughput * light.flux *
+           entry->scattering->radiance(images_of(light.way, boundaries), view, rng.next_float(), 1);
+  if (entry->scattering)
+    return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);
+  const auto at = collide_before(*entry->medium, way.t_max, channel_mix(state.throughput), rng.next_float());
+  if (!std::isfinite(at.t) || !(at.pdf_t > 0)) return Spectrum(0.0f);
+  return state.throughput * entry->medium->transmittance(at.t) / at.pdf_t *
+         source_radiance(light, boundaries, way.at(at.t), -way.direction, rng);
+}
+
+void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const PathState& state,
+                                     const Traveller::Leg& leg) {
+  if (state.visit_order > 0 || state.throughput.is_black() || !table_.holds(&medium)) return;
+  const float length = leg.collides ? length_to_surface(scene_, way, medium, counters_) : way.t_max;
+  if (!(length > 0)) return;
+  entered_.push_back({{way.origin, way.direction, length},
+                      state.throughput * (scale_ * roulette_.scale()),
+                      &medium,
+                      state.depth,
+                      state.order});
+}
+
+}  // namespace turbid

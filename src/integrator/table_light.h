@@ -1,0 +1,134 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "integrator/boundary_images.h"
+#include "integrator/integrator_plugin.h"
+#include "path/path_settings.h"
+#include "path/visit_roulette.h"
+#include "path/walk.h"
+#include "table/multiple_scattering.h"
+#include "table/table_cache.h"
+
+namespace turbid {
+
+/// How integrators find light that has scattered many times in one visit to a medium (PathState::visit_order).
+struct TableSettings {
+  enum class Source {
+    kNone,   ///< by the integrator's own method, all of it
+    kTable,  ///< looked up in a table of the endless medium
+    kModel   ///< the same by random walks in an endless medium: the reference of the table, noisy
+  };
+  Source source = Source::kNone;
+  int from_order = 3;   ///< collisions in one visit from which on the table has them: 3, 4 or 5
+  bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
+  TableRequest request;
+};
+
+/// The integrators' parameters `multiple_scattering`, `from_order` and `boundary`, and what they say. Refuses limits of
+/// depth and order that a sum over all orders cannot keep. Throws SceneError.
+std::vector<Parameter> table_parameters();
+TableSettings table_settings(const Properties& properties, const PathSettings& path);
+
+/// A straight way of light through a medium on which it has not scattered in this visit: where a table begins.
+struct EnteringLight {
+  Stretch way;    ///< up to the next surface
+  Spectrum flux;  ///< that sets out, W
+  const Medium* medium;
+  int depth, order;  ///< edges and collisions behind
+};
+
+/// The tables of a scene's media, and what light that has entered brings by them (S1 sect. 4.3).
+///
+/// A path's visits to media are told apart by PathState::visit_order. One visit with `from_order` collisions or more is
+/// the table's, from its first collision to its last: it is fed by all light that has entered unscattered, and looked
+/// at from sensor walks that have entered unscattered. Of several such visits the one nearest to the sensor is the
+/// table's, so walks from the sensor stop at collision `from_order` of a visit, and walks from lights go on: nothing
+/// counts twice, and light that comes out and enters again is not lost.
+///
+/// Media without a table (varying, too little absorption, too much forward scattering) are left to the method.
+/// Immutable, shared between threads.
+class TableLight {
+ public:
+  /// Finds or builds the tables; warns of media that are left out.
+  TableLight(const Scene& scene, const TableSettings& settings);
+
+  int from_order() const { return settings_.from_order; }
+  /// Those with a table.
+  std::vector<const Medium*> media() const;
+  /// The medium has a table.
+  bool holds(const Medium* medium) const { return find(medium) != nullptr; }
+  /// Leaves to the table what it has: for walks from the sensor.
+  void limit(PathSettings& path) const {
+    path.visit_limit = settings_.from_order;
+    path.limited_media = media();
+  }
+
+  /// The boundaries that light is corrected by where a walk from the sensor is at x in the medium, having come along
+  /// `direction`; none where it is not.
+  BoundaryPlanes boundaries_around(const Vec3& x, const Vec3& direction, const Medium& medium) const {
+    return boundaries_ ? boundaries_->around(x, direction, medium) : BoundaryPlanes();
+  }
+
+  /// What scatters at x towards w (unit) for the last time, 1/sr per volume: W/(sr m^3). `rng`: for kModel alone.
+  Spectrum source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x, const Vec3& w,
+                           Rng& rng) const;
+
+  /// The same at the first collision of a visit of the sensor's walk, times what the walk makes of it; black in another
+  /// medium, and where even the shortest path of the sum is longer than `path` allows.
+  Spectrum at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
+                        const PathState& state, const PathSettings& path, Rng& rng) const;
+  /// Along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its beginning.
+  Spectrum along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way, const PathState& state,
+                 const PathSettings& path, Rng& rng) const;
+
+ private:
+  struct Entry {
+    const HomogeneousMedium* medium;
+    std::unique_ptr<const MultipleScattering> scattering;  ///< null for kModel
+  };
+  const Entry* find(const Medium* medium) const;
+  /// The shortest paths of the sum, over the sensor's collision of that depth and order, count.
+  bool counts(const EnteringLight& light, int depth, int order, const PathSettings& path) const {
+    return depth <= path.max_depth - light.depth - settings_.from_order &&
+           path.order_counts(light.order + order - 1 + settings_.from_order);
+  }
+
+  TableSettings settings_;
+  std::vector<Entry> entries_;
+  std::optional<Boundaries> boundaries_;
+};
+
+/// For walks from lights.
+inline PathSettings without_visit_limit(PathSettings path) {
+  path.visit_limit = PathSettings::kUnlimited;
+  return path;
+}
+
+/// Keeps the light of walks from lights that has entered media with tables.
+class EnteringLightKeeper : public WalkRecorder {
+ public:
+  /// `scale`: a factor of the flux.
+  EnteringLightKeeper(const Scene& scene, const TableLight& table, SampleCounters& counters, float scale = 1)
+      : scene_(scene), table_(table), counters_(counters), scale_(scale), roulette_(table.media()) {}
+
+  /// For a new walk; what has entered before is kept.
+  void begin(const Rng& rng) { roulette_.begin(rng); }
+  const std::vector<EnteringLight>& entered() const { return entered_; }
+
+  void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg);
+  void left_collision(const CollisionEvent& event, float, const Vec3&, const PathState& state, const Traveller&) {
+    roulette_.left_collision(event.medium, state);
+  }
+  bool goes_on() const { return roulette_.goes_on(); }
+
+ private:
+  const Scene& scene_;
+  const TableLight& table_;
+  SampleCounters& counters_;
+  float scale_;
+  VisitRoulette roulette_;
+  std::vector<EnteringLight> entered_;
+};
+
+}  // namespace turbid

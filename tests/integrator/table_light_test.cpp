@@ -1,0 +1,142 @@
+// Multiple scattering by tables: against random walks in a medium without end, and against `volpath` where the medium
+// ends far away.
+#include "integrator/table_light.h"
+
+#include <gtest/gtest.h>
+
+#include "integrator/agreement.h"
+#include "integrator/many_lights.h"
+#include "integrator/path_tracer.h"
+#include "integrator/suite.h"
+#include "integrator/upbp.h"
+#include "testing/temporary_folder.h"
+
+namespace turbid::testing {
+namespace {
+
+using namespace pieces;
+using Source = TableSettings::Source;
+
+/// A lamp that stops no light, and the sensor, deep in fog whose end is 20 mean free paths and more away.
+std::string deep_fog(const std::string& settings = "") {
+  const std::string lamp =
+      ball("0.5, 0.3, 1", 0.5f,
+           R"(<bsdf type="null"/><emitter type="area"><rgb name="radiance" value="3, 4, 5"/></emitter>)");
+  return scene(
+      lamp + ball("0, 0, 0", 24, R"(<bsdf type="null"/>)" + medium("interior", "1, 1.2, 0.9", "0.8, 0.7, 0.85", 0.3f)),
+      settings);
+}
+
+/// A small table that all tests of this program share.
+TableSettings settings_for_tests(Source source = Source::kTable, int from_order = 3) {
+  static const TemporaryFolder folder;
+  TableSettings settings;
+  settings.source = source;
+  settings.from_order = from_order;
+  settings.request.settings.deposits = 200'000;
+  settings.request.folder = folder.path().string();
+  return settings;
+}
+
+std::unique_ptr<Integrator> make_volpath(const PathSettings& path, const TableSettings& table) {
+  return std::make_unique<PathTracer>(PathTracer::Kind::kVolumes, path, ConnectionSettings{}, std::nullopt, table);
+}
+std::unique_ptr<Integrator> make_vrl(const PathSettings& path, const TableSettings& table) {
+  ManyLightsSettings own;
+  own.rays = true;
+  own.sampler = ManyLightsSettings::Sampler::kAll;
+  own.lights = 30;
+  own.reuse = 1;
+  own.volume_points.count = 2;
+  own.table = table;
+  own.entering.lights = 100;
+  return std::make_unique<ManyLights>(path, own);
+}
+std::unique_ptr<Integrator> make_upbp(const PathSettings& path, const TableSettings& table) {
+  UpbpSettings own;
+  own.techniques.set(static_cast<size_t>(Technique::kJoin));
+  own.techniques.set(static_cast<size_t>(Technique::kPointPoint));
+  own.radius = 0.02f;
+  own.table = table;
+  own.entering.lights = 100;
+  return std::make_unique<Upbp>(path, own);
+}
+
+Observation observe_by(const std::string& xml, std::unique_ptr<Integrator> integrator, uint32_t samples, uint64_t seed,
+                       double brightness = 1) {
+  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
+  return observe(Scene(std::move(loaded.parts)), *integrator, {"", samples, brightness, seed}, 8);
+}
+
+void expect_same_light(const std::string& what, const Observation& first, const Observation& second,
+                       double largest_error, bool same = true) {
+  const Agreement agreement = compare(first, second);
+  ASSERT_TRUE(agreement.cannot.empty()) << agreement.cannot;
+  EXPECT_EQ(agreement.accepted(), same) << what << "\n" << agreement.report();
+  EXPECT_LT(agreement.ratio_error[0], largest_error) << what << "\n" << agreement.report();
+}
+
+// Deep in fog the model is true.
+TEST(TableLight, DeepInFogIsWhatPathsFind) {
+  const Observation paths = observe_by(deep_fog(), make_volpath({}, {}), 96, 1);
+  expect_same_light("model", paths, observe_by(deep_fog(), make_volpath({}, settings_for_tests(Source::kModel)), 32, 2),
+                    0.02);
+  for (const int from_order : {3, 5})
+    expect_same_light("volpath", paths,
+                      observe_by(deep_fog(), make_volpath({}, settings_for_tests(Source::kTable, from_order)), 32, 3),
+                      0.02);
+  expect_same_light("a brightness of 1.1", paths,
+                    observe_by(deep_fog(), make_volpath({}, settings_for_tests()), 32, 3, 1.1), 0.02, false);
+}
+
+/// A ball that bends light, in the light of a large lamp. With a floor, light enters again.
+std::string bright_ball(bool floor) {
+  const std::string lamp =
+      ball("1, -2, 4", 1.2f, R"(<emitter type="area"><rgb name="radiance" value="3, 4, 5"/></emitter>)");
+  const std::string content = lamp + glass("0, 0, 0.8", 1.1f, medium("interior", "3, 4, 3.5", "0.9, 0.95, 0.8", 0.3f));
+  return scene(content + (floor ? kFloor : ""), "", kPinhole);
+}
+
+// What the table stands for, all find alike.
+TEST(TableLight, IntegratorsAgreeOnIt) {
+  for (const bool images : {false, true}) {
+    TableSettings table = settings_for_tests();
+    table.images = images;
+    const PathSettings path{.min_scattering = 3};
+    const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 4, 1);
+    expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 4, 2), 0.01);
+    expect_same_light("volpath", vrl, observe_by(bright_ball(false), make_volpath(path, table), 256, 3), 0.03);
+    expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 4, 2, 1.05),
+                      0.01, false);
+  }
+}
+
+// What the table does not have, it does not touch: in whatever way a method makes paths, their visits are counted.
+TEST(TableLight, LeavesLowerOrdersAlone) {
+  const PathSettings path{.max_scattering = 2};
+  const Observation plain = observe_by(bright_ball(true), make_volpath(path, {}), 128, 1);
+  const TableSettings table = settings_for_tests();
+  expect_same_light("volpath", plain, observe_by(bright_ball(true), make_volpath(path, table), 128, 2), 0.03);
+  expect_same_light("vrl", plain, observe_by(bright_ball(true), make_vrl(path, table), 16, 3), 0.03);
+  expect_same_light("upbp", plain, observe_by(bright_ball(true), make_upbp(path, table), 16, 4), 0.03);
+}
+
+TEST(TableLight, RefusesLimitsThatASumCannotKeep) {
+  const auto message = [](const std::string& settings) {
+    try {
+      render_text(scene(kLamp, settings), 1);
+    } catch (const std::exception& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string table = R"(<string name="multiple_scattering" value="table"/>)";
+  EXPECT_NE(message(table + integer("max_scattering", 7)).find("the table holds all orders from 3 on at once"),
+            std::string::npos);
+  EXPECT_NE(message(table + integer("min_scattering", 4)).find("use a limit up to that"), std::string::npos);
+  EXPECT_NE(message(table + R"(<string name="nee" value="once_more"/>)").find("nee = standard"), std::string::npos);
+  EXPECT_EQ(message(table + integer("min_scattering", 3)), "");
+}
+
+}  // namespace
+}  // namespace turbid::testing
