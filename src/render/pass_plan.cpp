@@ -17,8 +17,10 @@ uint32_t samples_per_pass(const Vec2i& size) {
   return static_cast<uint32_t>(std::bit_ceil(std::min(wanted, kMostPerPixel)));
 }
 
-PassPlan::PassPlan(const Vec2i& size, const Budget& budget, uint64_t seed)
-    : per_pass_(turbid::samples_per_pass(size)), seed_(seed), target_(budget.samples) {
+PassPlan::PassPlan(const Vec2i& size, const Budget& budget, uint64_t seed, uint32_t samples_per_pass)
+    : per_pass_(samples_per_pass > 0 ? samples_per_pass : turbid::samples_per_pass(size)),
+      seed_(seed),
+      target_(budget.samples) {
   if (budget.passes) target_ = std::min(target_.value_or(UINT64_MAX), *budget.passes * per_pass_);
 }
 

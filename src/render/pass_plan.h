@@ -22,7 +22,8 @@ struct Budget {
 /// The sequence of passes of a render.
 class PassPlan {
  public:
-  PassPlan(const Vec2i& size, const Budget& budget, uint64_t seed);
+  /// `samples_per_pass` 0: as many as suit the size.
+  PassPlan(const Vec2i& size, const Budget& budget, uint64_t seed, uint32_t samples_per_pass = 0);
 
   uint32_t samples_per_pass() const { return per_pass_; }
   /// Samples per pixel at the end, when that is known beforehand.

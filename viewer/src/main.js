@@ -169,7 +169,12 @@ function meanLuminance(values) {
   return (3 * sum) / values.length;
 }
 
-function summary(groups) {
+/** The verdicts of the report, or what can be said from the metrics. */
+function summary({ verdicts, groups = [] }) {
+  if (verdicts?.length)
+    return verdicts.map(({ place, winner, text }) =>
+      element('p', { class: 'summary' }, `${place}: `, element('strong', {}, winner), winner ? ': ' : '', text),
+    );
   const lines = groups.flatMap(({ title, images }) => {
     const { key, image } = bestOf(images);
     if (!image || images.filter((i) => i.metrics).length < 2) return [];
@@ -208,7 +213,7 @@ function main() {
     if (!event.target.closest('input, select') && !event.ctrlKey && !event.metaKey) active?.key(event);
   });
   document.getElementById('app').append(
-    element('header', {}, element('h1', {}, report.title), element('p', {}, report.subtitle ?? ''), ...summary(groups)),
+    element('header', {}, element('h1', {}, report.title), element('p', {}, report.subtitle ?? ''), ...summary(report)),
     ...comparisons.map((comparison) => comparison.root),
     element('div', { class: 'plots' }, ...(report.plots ?? []).map(makePlot)),
     element('div', { class: 'tables' }, ...(report.tables ?? []).map(makeTable)),

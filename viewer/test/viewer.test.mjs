@@ -57,12 +57,16 @@ let folder;
 let file;
 const problems = [];
 
+async function write(shown) {
+  const viewer = await readFile(resolve(import.meta.dirname ?? '.', '../viewer.html'), 'utf8');
+  const json = JSON.stringify(shown).replaceAll('<', '\\u003c');
+  await writeFile(file, viewer.replace('<!--report-->', () => json));
+}
+
 before(async () => {
   folder = await mkdtemp(join(tmpdir(), 'viewer-'));
   file = join(folder, 'report.html');
-  const viewer = await readFile(resolve(import.meta.dirname ?? '.', '../viewer.html'), 'utf8');
-  const json = JSON.stringify(report).replaceAll('<', '\\u003c');
-  await writeFile(file, viewer.replace('<!--report-->', () => json));
+  await write(report);
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-gpu'],
@@ -173,5 +177,19 @@ test('reads pixel values under the cursor, and flips by number', async () => {
 test('plots curves with their slopes', async () => {
   assert.match(await page.textContent('.plot'), /a \(slope -1\.00\)/);
   assert.match(await page.textContent('.table'), /a1\.25/);
+  assert.deepEqual(problems, []);
+});
+
+test('begins with the verdicts of an experiment', async () => {
+  const verdicts = [{ place: 'greys', winner: 'dark', text: 'least error. bright 2 ×.' }];
+  const images = report.groups[0].images.map((image) => ({
+    ...image,
+    metrics: image.metrics && { ...image.metrics, psnr: 20, psnr_error: 0.5 },
+  }));
+  await write({ ...report, verdicts, groups: [{ ...report.groups[0], images }] });
+  await page.goto(pathToFileURL(file).href);
+  assert.equal(await page.textContent('.summary'), 'greys: dark: least error. bright 2 ×.');
+  assert.match(await page.textContent('.metrics'), /20 ± 0\.5/);
+  await write(report);
   assert.deepEqual(problems, []);
 });
