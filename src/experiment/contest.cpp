@@ -1,7 +1,6 @@
 #include "experiment/contest.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -77,12 +76,8 @@ MethodRun run_method(const StagedScene& staged, const ComparisonRule& rule, int 
   RenderOptions options;
   options.seed = seed;
   options.quiet = true;
-  options.samples_per_pass = short_pass(staged.scene().film().image_size());
-  if (rule.equal == EqualBy::kSamples) {
-    // Passes that end exactly with the samples, and with the moments before.
-    const int halvings = std::clamp(std::countr_zero(rule.samples) - points + 1, 0, 16);
-    options.samples_per_pass = std::min(options.samples_per_pass, uint32_t{1} << halvings);
-  }
+  options.growing_passes = true;
+  if (rule.equal == EqualBy::kSamples) options.budget.samples = rule.samples;
   Observer observer(rule, points, reference);
   options.after_pass = [&](const Film& film) { return observer.after_pass(film); };
   const RenderResult result = render(make_task(staged.scene(), *setup.integrator), options);

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cmath>
 #include <filesystem>
 
@@ -83,12 +82,6 @@ double variance_of_mean(const Film& film) {
 
 }  // namespace
 
-uint32_t short_pass(const Vec2i& size) {
-  constexpr uint64_t kSamples = 1 << 14;
-  const uint64_t pixels = static_cast<uint64_t>(size.x) * static_cast<uint64_t>(size.y);
-  return static_cast<uint32_t>(std::bit_ceil((kSamples + pixels - 1) / pixels));
-}
-
 Reference reference_of(const Film& a, const Film& b) {
   Film both = a;
   both.add(b);
@@ -135,7 +128,7 @@ Reference find_reference(const StagedScene& staged, const ReferenceRequest& requ
     options.fingerprint = hash_bytes(std::string_view("half"), hash + options.seed);
     options.resume = true;
     options.quiet = true;
-    options.samples_per_pass = short_pass(staged.scene().film().image_size());
+    options.growing_passes = true;
     options.output.path = fmt::format("{}/{}-{}.exr", request.folder, key, i + 1);
     options.output.png = false;
     options.output.metadata = {{"scene", staged.choice().name()},

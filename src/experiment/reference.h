@@ -43,7 +43,4 @@ Reference find_reference(const StagedScene& staged, const ReferenceRequest& requ
 /// E (a - b)^2 n m / (n + m)^2 is the variance of their weighted mean, whatever samples of one half have in common.
 Reference reference_of(const Film& a, const Film& b);
 
-/// Passes of experiments: short ones, so that runs end close to their time; a power of two samples per pixel.
-uint32_t short_pass(const Vec2i& size);
-
 }  // namespace turbid

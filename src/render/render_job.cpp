@@ -34,10 +34,11 @@ class Job {
   Job(const RenderTask& task, const RenderOptions& options)
       : task_(task),
         options_(options),
-        plan_(task.size, options.budget, options.seed, options.samples_per_pass),
+        plan_(options.growing_passes ? PassPlan::growing(options.budget, options.seed)
+                                     : PassPlan(task.size, options.budget, options.seed)),
         output_(options.output),
         total_(task.size, task.layers) {
-    output_.samples_per_pass = plan_.samples_per_pass();
+    output_.tells_passes = !options.growing_passes;
   }
 
   RenderResult run() {

@@ -93,7 +93,7 @@ TEST_F(ExperimentCommand, MistakesAreExplained) {
 }
 
 TEST_F(ExperimentCommand, GoesOnAfterCtrlC) {
-  write(R"("volpath", "seconds": 0.5)", 1);
+  write(R"("volpath", "seconds": 0.2)", 0.5);
   testing::ChildProcess child(folder_.path().string(),
                               {"experiment", "--cache", folder_.file("cache"), "small.json", "-o", "out"});
   const fs::path first = folder_.path() / "out/small/runs/cloud-a-1.json";
