@@ -45,6 +45,7 @@ std::vector<std::string> make_experiment(const Experiment& experiment, const Exp
   if (experiment.program) {
     options.tell(experiment.program->name + " ...");
     const std::string printed = run_program_figure(experiment, options.time_scale);
+    about["program"] = program_line(experiment, options.time_scale);
     about["finished"] = describe_now();
     writer.write("output.md", printed);
     writer.write("report.html", to_html(report_of(experiment, printed, about), viewer));

@@ -67,15 +67,21 @@ std::string output_of(const std::string& path, const std::vector<std::string>& a
   return text;
 }
 
+const std::vector<std::string>& arguments_of(const ProgramSettings& program, double time_scale) {
+  return time_scale < 1 && !program.shorter.empty() ? program.shorter : program.arguments;
+}
+
 }  // namespace
+
+std::string program_line(const Experiment& experiment, double time_scale) {
+  return fmt::format("{} {}", experiment.program->name, fmt::join(arguments_of(*experiment.program, time_scale), " "));
+}
 
 std::string run_program_figure(const Experiment& experiment, double time_scale) {
   const ProgramSettings& program = *experiment.program;
-  const bool shorter = time_scale < 1 && !program.shorter.empty();
   const fs::path folder = fs::absolute(experiment.file).parent_path().parent_path();
   int status = 0;
-  std::string text =
-      output_of(program_path(program.name), shorter ? program.shorter : program.arguments, folder.string(), status);
+  std::string text = output_of(program_path(program.name), arguments_of(program, time_scale), folder.string(), status);
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM)) throw Interrupted();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error(program.name + " failed", 1);
   return text;

@@ -12,6 +12,9 @@ namespace turbid {
 /// when it is not built, Error when it fails, Interrupted.
 std::string run_program_figure(const Experiment& experiment, double time_scale);
 
+/// The program and its arguments, as run.
+std::string program_line(const Experiment& experiment, double time_scale);
+
 /// What it printed as a report of tables.
 Report report_of(const Experiment& experiment, const std::string& printed,
                  const std::map<std::string, std::string>& about);

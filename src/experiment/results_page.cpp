@@ -206,6 +206,8 @@ ReportVerdict verdict_of(const SceneResult& scene, EqualBy rule) {
     verdict.text += (rule == EqualBy::kSamples ? " Error of the others over it: "
                                                : " Time that the others need for the same error: ") +
                     behind + ".";
+  if (order.front()->score.is_lost_in_reference)
+    verdict.text += " Its error is below that of the reference: more time would tell more (--time-scale).";
   if (!never.empty()) verdict.text += " Not there in the time given: " + never + ".";
   return verdict;
 }
