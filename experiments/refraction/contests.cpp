@@ -17,7 +17,6 @@ namespace {
 const std::string kOrderOne = ",min_scattering=1,max_scattering=1";
 const std::string kIntervals = "singlescatter" + kOrderOne;
 const std::string kPoints = "singlescatter,method=point_sampling,samples=4" + kOrderOne;
-constexpr uint32_t kSamples = 4, kReferenceSamples = 96;
 constexpr uint64_t kSeed = 1, kReferenceSeed = 1000;
 
 /// One of the two bodies, its light and what it is to be.
@@ -64,11 +63,11 @@ struct Row {
 /// Methods on one stage against one reference.
 class Contest {
  public:
-  Contest(std::string name, Stage stage, const ContestSettings& settings, uint32_t reference_samples)
+  Contest(std::string name, Stage stage, const ContestSettings& settings)
       : name_(std::move(name)),
         stage_(std::move(stage)),
         settings_(settings),
-        reference_(stage_.render(kIntervals, reference_samples, kReferenceSeed).image) {
+        reference_(stage_.render(kIntervals, settings.reference_samples, kReferenceSeed).image) {
     keep("reference", reference_);
   }
 
@@ -126,18 +125,16 @@ constexpr double kLampRadius = 0.1;
 
 void print_equal_time(const ContestSettings& settings, bool of_statue) {
   const Subject subject = of_statue ? statue(settings.size) : bumpy_ball(settings.size);
-  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings,
-                      kReferenceSamples);
+  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings);
   print_head(subject.name + ", point light, equal time");
-  const Row intervals = point.run("triangle intervals", kIntervals, kSamples);
+  const Row intervals = point.run("triangle intervals", kIntervals, settings.samples);
   print_row(intervals, intervals);
-  print_row(point.run("triangle intervals, midpoint", kIntervals + ",midpoint=true", kSamples), intervals);
+  print_row(point.run("triangle intervals, midpoint", kIntervals + ",midpoint=true", settings.samples), intervals);
   print_row(point.run_for("point sampling", kPoints, intervals.shot.seconds), intervals);
 
-  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings,
-                     kReferenceSamples);
+  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings);
   print_head(fmt::format("{}, lamp of radius {}, equal time", subject.name, kLampRadius));
-  const Row by_lamp = lamp.run("triangle intervals", kIntervals, kSamples);
+  const Row by_lamp = lamp.run("triangle intervals", kIntervals, settings.samples);
   print_row(by_lamp, by_lamp);
   for (const char* other : {"bdpt", "volpath", "mcrt"})
     print_row(lamp.run_for(other, other + kOrderOne, by_lamp.shot.seconds), by_lamp);
@@ -145,10 +142,9 @@ void print_equal_time(const ContestSettings& settings, bool of_statue) {
 
 void print_equal_quality(const ContestSettings& settings, double factor) {
   const Subject subject = bumpy_ball(settings.size);
-  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings,
-                      kReferenceSamples);
+  const Contest point(subject.name + ", point light", subject.under_point(settings.scenes), settings);
   print_head(fmt::format("{}, point light, others {} times as long", subject.name, factor));
-  const Row intervals = point.run("triangle intervals", kIntervals, 1);
+  const Row intervals = point.run("triangle intervals", kIntervals, settings.samples);
   print_row(intervals, intervals);
   for (const int samples : {4, 16, 64})
     print_row(point.run_for(fmt::format("point sampling, {} points", samples),
@@ -156,10 +152,9 @@ void print_equal_quality(const ContestSettings& settings, double factor) {
                             factor * intervals.shot.seconds),
               intervals);
 
-  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings,
-                     kReferenceSamples);
+  const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings);
   print_head(fmt::format("{}, lamp of radius {}, others {} times as long", subject.name, kLampRadius, factor));
-  const Row by_lamp = lamp.run("triangle intervals", kIntervals, 1);
+  const Row by_lamp = lamp.run("triangle intervals", kIntervals, settings.samples);
   print_row(by_lamp, by_lamp);
   for (const char* other : {"bdpt", "mcrt"})
     print_row(lamp.run_for(other, other + kOrderOne, factor * by_lamp.shot.seconds), by_lamp);

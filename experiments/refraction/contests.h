@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 
 namespace turbid::experiments {
@@ -7,6 +8,8 @@ struct ContestSettings {
   std::string scenes = "scenes";  ///< folder of the scenes that ship
   std::string images;             ///< folder for pictures; empty: none
   int size = 40;                  ///< pixels along the shorter side
+  uint32_t samples = 4;           ///< of triangle intervals, per pixel
+  uint32_t reference_samples = 96;
 };
 
 /// S4 Fig. 1 (the bumpy ball) and Fig. 6 (there a rabbit, here the statue): light of order 1 by every method in the

@@ -42,7 +42,6 @@ void figure_3(const std::string& scenes, const std::string& plot) {
   Curve radiance{"radiance", {}, flights.radiance_along(*chosen, kPoints)};
   for (size_t i = 0; i < kPoints; ++i)
     radiance.x.push_back(static_cast<double>(chosen->t_max) * (static_cast<double>(i) + 0.5) / kPoints);
-  const double integral = mean_of(radiance.y) * static_cast<double>(chosen->t_max);
   double sum = 0;
   Sampler sampler(SamplerKind::kIndependent, 7);
   SampleCounters counters;
@@ -54,7 +53,14 @@ void figure_3(const std::string& scenes, const std::string& plot) {
   }
   fmt::print("radiance along a flight of length {:.3f}: mean {:.4g}, largest {:.4g}\n", chosen->t_max,
              mean_of(radiance.y), *std::max_element(radiance.y.begin(), radiance.y.end()));
-  fmt::print("its integral by {} points {:.5g}, by triangle intervals {:.5g}\n", kPoints, integral, sum / kEstimates);
+  fmt::print("its integral by triangle intervals {:.5g}\n", sum / kEstimates);
+  for (const auto& [points, starts] : {std::pair{kPoints, 1}, {64 * kPoints, 1}, {kPoints, 8}, {16 * kPoints, 8}}) {
+    const double integral =
+        mean_of(flights.radiance_along(*chosen, points, starts)) * static_cast<double>(chosen->t_max);
+    fmt::print("by {} points, Newton's method from {} places of each triangle {:.5g}\n", points,
+               starts * (starts + 1) / 2, integral);
+    std::fflush(stdout);
+  }
   if (plot.empty()) return;
   write_plot(plot, "In-scattered radiance along a camera ray in the bumpy ball", "distance", {radiance});
   fmt::print("written to {0}.csv and {0}.svg\n", plot);
@@ -186,6 +192,8 @@ int run(int argc, char** argv) {
   };
   const auto with_pictures = [&](CLI::App* command) {
     command->add_option("--size", contest.size, "pixels along the shorter side");
+    command->add_option("--samples", contest.samples, "of triangle intervals, per pixel");
+    command->add_option("--reference-samples", contest.reference_samples, "of the picture that errors are told from");
     command->add_option("--images", contest.images, "folder for the pictures");
     return command;
   };

@@ -46,9 +46,9 @@ Flights::Rendering Flights::render(const RefractiveSettings& settings, uint64_t 
   return result;
 }
 
-std::vector<double> Flights::radiance_along(const Ray& flight, size_t points) const {
-  const RefractiveScattering scattering(scene_,
-                                        {.method = RefractiveMethod::kPointSampling, .samples = 1, .in_middle = true});
+std::vector<double> Flights::radiance_along(const Ray& flight, size_t points, int starts) const {
+  const RefractiveScattering scattering(
+      scene_, {.method = RefractiveMethod::kPointSampling, .samples = 1, .in_middle = true, .starts = starts});
   Sampler sampler(SamplerKind::kIndependent, 7);
   sampler.start(0, 0);
   SampleCounters counters;

@@ -24,8 +24,8 @@ class Flights {
   Rendering render(const RefractiveSettings& settings, uint64_t index, size_t stride = 1) const;
 
   /// In-scattered radiance at distance t along a flight, attenuated by nothing but the way to there: what S4 Fig. 3
-  /// plots. Found by Newton's method on each triangle.
-  std::vector<double> radiance_along(const Ray& flight, size_t points) const;
+  /// plots. Found by Newton's method on each triangle, from `starts` places along each of its sides.
+  std::vector<double> radiance_along(const Ray& flight, size_t points, int starts = 1) const;
 
  private:
   void add(const Ray& ray);

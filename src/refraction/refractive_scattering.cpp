@@ -1,5 +1,6 @@
 #include "refraction/refractive_scattering.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "refraction/distance_factor.h"
@@ -143,22 +144,35 @@ class RefractiveScattering::Gathering {
     return sqr(distance * pencil.eta()) / distance_factor(facet, path);
   }
 
-  /// The path through one triangle to V(t).
+  /// The paths through one triangle to V(t): those that Newton's method finds from its starts.
   void connect(uint32_t triangle, double t) {
     const Facet facet = lit_facet(triangle);
     if (!lit(facet)) return;
     const HalfVector function(facet, light_->point(), eta_, segment_.line);
-    const auto at = function.solve(t, V2d(1.0 / 3), settings_.tolerance);
-    if (!at || !inside_triangle(*at)) return;
+    const int side = settings_.starts;
+    constexpr double kSame = 1e-6;  // in the triangle's coordinates
+    roots_.clear();
+    for (int i = 0; i < side; ++i)
+      for (int j = 0; i + j < side; ++j) {
+        const auto at = function.solve(t, V2d(i + 1.0 / 3, j + 1.0 / 3) / side, settings_.tolerance);
+        if (!at || !inside_triangle(*at)) continue;
+        if (std::any_of(roots_.begin(), roots_.end(), [&](const V2d& known) { return (known - *at).length() < kSame; }))
+          continue;
+        roots_.push_back(*at);
+        connect(facet, triangle, *at, t);
+      }
+  }
+
+  void connect(const Facet& facet, uint32_t triangle, const V2d& at, double t) {
     const Pencil pencil(facet, light_->point(), eta_);
-    const Pencil::Ray ray = pencil.ray(*at);
+    const Pencil::Ray ray = pencil.ray(at);
     const V3d v = segment_.line.at(t);
     // f is zero, too, where V lies on the light's side in the mirror image of that direction.
     if (!pencil.valid(ray) || !((v - ray.p).dot(ray.normal) < 0)) return;
-    const RefractedPath path{v, ray.p, ray.normal, *at, eta_, light_->point()};
+    const RefractedPath path{v, ray.p, ray.normal, at, eta_, light_->point()};
     const double distance = light_->at_infinity() ? 1 : (v - ray.p).length() + ray.distance;
     const double spread = settings_.focusing ? distance_factor(facet, path) / sqr(eta_) : sqr(distance);
-    add(facet, triangle, *at, ray.direction, t, segment_.to / (settings_.samples * spread));
+    add(facet, triangle, at, ray.direction, t, segment_.to / (settings_.samples * spread));
   }
 
   /// Adds the path over P at V(t); `factor`: all that geometry makes of the light's intensity, and the step along the
@@ -249,6 +263,7 @@ class RefractiveScattering::Gathering {
   double eta_ = 1;  ///< index at V / index at the light
   ContourFinder finder_;
   std::vector<uint32_t> candidates_;  ///< triangles that the tree names
+  std::vector<V2d> roots_;            ///< of one triangle
   Spectrum result_{0.0f};
 };
 

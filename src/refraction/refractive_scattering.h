@@ -21,6 +21,7 @@ struct RefractiveSettings {
   bool focusing = true;       ///< false: D is taken for the square of the distance (S4 Fig. 11)
   /// Newton's steps to P, in the triangle's own coordinates, that are taken for rest (epsilon of S4 Fig. 12).
   double tolerance = 1e-10;
+  int starts = 1;  ///< of Newton's method along each side of a triangle, for points; 1 is the seed's: its middle
 };
 
 /// Single scattering of light that one smooth interface bends on its way into a medium (S4, NUMERICS 4): paths light -

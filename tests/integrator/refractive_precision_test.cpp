@@ -4,6 +4,7 @@
 // tracing is that other one: it crosses the boundary on its way, and joins V with the sensor. Else paths meet the lamp.
 #include <gtest/gtest.h>
 
+#include "core/parallel.h"
 #include "integrator/refractive_scenes.h"
 
 namespace turbid::testing {
@@ -58,23 +59,30 @@ std::vector<Precision> seen_from_without(double largest_error) {
           by_chance("uneven_bumpy_sphere", bumpy(kGlass + uneven()), 512)};
 }
 
+/// Passes side by side: a picture of one tile has no other use for threads.
 PassStatistics observe(const Precision& p, const std::string& integrator, uint32_t samples, uint64_t seed, int block,
                        double brightness = 1) {
-  Rendering rendering(p.xml, integrator,
-                      {{"min_scattering", "1"}, {"max_scattering", "1"}, {"max_depth", std::to_string(p.max_depth)}});
+  std::vector<Film> films(kPasses);
+  std::vector<Counters> counters(kPasses);
+  parallel_for(kPasses, [&](size_t pass) {
+    Rendering rendering(p.xml, integrator,
+                        {{"min_scattering", "1"}, {"max_scattering", "1"}, {"max_depth", std::to_string(p.max_depth)}});
+    films[pass] = rendering.pass(seed, static_cast<uint32_t>(pass), samples);
+    counters[pass] = rendering.counters();
+  });
   PassStatistics result({16, 16}, block);
-  for (uint32_t pass = 0; pass < kPasses; ++pass) {
-    Film film = rendering.pass(seed, pass, samples);
-    for (size_t i = 0; i < film.pixel_count(); ++i)
-      for (size_t c = 0; c < kChannels; ++c) film.pixel(i).radiance[c] *= brightness;
-    result.add(film);
+  uint64_t unresolved = 0, followed = 0;
+  for (size_t pass = 0; pass < kPasses; ++pass) {
+    for (size_t i = 0; i < films[pass].pixel_count(); ++i)
+      for (size_t c = 0; c < kChannels; ++c) films[pass].pixel(i).radiance[c] *= brightness;
+    result.add(films[pass]);
+    EXPECT_EQ(counters[pass]["dropped_samples"], 0u);
+    unresolved += counters[pass]["unresolved_triangles"];
+    followed += counters[pass]["refractive_paths"];
   }
-  Counters counters = rendering.counters();
-  EXPECT_EQ(counters["dropped_samples"], 0u);
   // Light that the solver gives up on is rare, next to the critical angle, too.
   constexpr double kLeftOut = 2e-3;
-  EXPECT_LE(static_cast<double>(counters["unresolved_triangles"]),
-            kLeftOut * static_cast<double>(counters["refractive_paths"]));
+  EXPECT_LE(static_cast<double>(unresolved), kLeftOut * static_cast<double>(followed));
   return result;
 }
 
