@@ -1,6 +1,9 @@
 #include "core/cache_folder.h"
 
 #include <cstdlib>
+#include <filesystem>
+
+#include "core/error.h"
 
 namespace turbid {
 
@@ -15,6 +18,12 @@ std::string cache_folder(const std::string& name, const char* override_name) {
     return cache + "/turbid/" + name;
   const std::string home = environment_variable("HOME");
   return (home.empty() ? "." : home) + "/.cache/turbid/" + name;
+}
+
+void make_folder(const std::string& path) {
+  std::error_code problem;
+  std::filesystem::create_directories(path, problem);
+  if (problem) throw FileError(path, "cannot be made: " + problem.message());
 }
 
 }  // namespace turbid

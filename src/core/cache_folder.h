@@ -10,4 +10,7 @@ std::string environment_variable(const char* name);
 /// variable `override_name`, where it is set, names the folder itself.
 std::string cache_folder(const std::string& name, const char* override_name);
 
+/// Makes a folder and those above it, unless they are there. Throws FileError.
+void make_folder(const std::string& path);
+
 }  // namespace turbid

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/cache_folder.h"
 #include "experiment/experiment_file.h"
 #include "experiment/machine.h"
 #include "experiment/program_figure.h"
@@ -37,7 +37,7 @@ std::vector<std::string> make_experiment(const Experiment& experiment, const Exp
                                          std::map<std::string, std::string> about) {
   const std::string viewer = read_viewer();  // its absence is found before the work
   check_experiment(experiment, options.size);
-  std::filesystem::create_directories(options.folder);
+  make_folder(options.folder);
   about["machine"] = describe_machine();
   about["experiment"] = experiment.file;
   about["time scale"] = fmt::format("{:g}", options.time_scale);

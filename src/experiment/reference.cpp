@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/cache_folder.h"
 #include "core/hash.h"
 #include "core/version.h"
 #include "image/atomic_file.h"
@@ -118,7 +119,7 @@ Reference reference_of(const Film& a, const Film& b) {
 
 Reference find_reference(const StagedScene& staged, const ReferenceRequest& request) {
   const uint64_t hash = hash_of(staged);
-  fs::create_directories(request.folder);
+  make_folder(request.folder);
   const std::string key = fmt::format("{}-{:016x}", fs::path(staged.choice().file).stem().string(), hash);
 
   Half halves[2];
@@ -129,6 +130,7 @@ Reference find_reference(const StagedScene& staged, const ReferenceRequest& requ
     options.resume = true;
     options.quiet = true;
     options.growing_passes = true;
+    options.save_seconds = 15;
     options.output.path = fmt::format("{}/{}-{}.exr", request.folder, key, i + 1);
     options.output.png = false;
     options.output.metadata = {{"scene", staged.choice().name()},

@@ -187,7 +187,7 @@ ReportVerdict verdict_of(const SceneResult& scene, EqualBy rule) {
     return verdict;
   }
   std::string ties, behind, never;
-  const auto add = [](std::string& list, const std::string& item) { list += (list.empty() ? "" : ", ") + item; };
+  const auto add = [](std::string& list, const std::string& item) { list += (list.empty() ? "" : "; ") + item; };
   for (size_t i = 1; i < order.size(); ++i) {
     const std::string& name = order[i]->method.name;
     const auto own = merit(order[i]->score, rule);
@@ -195,10 +195,8 @@ ReportVerdict verdict_of(const SceneResult& scene, EqualBy rule) {
       add(never, name);
       continue;
     }
-    if (!is_surely_worse(scene, *order[i], *order.front(), rule))
-      add(ties, best->value > 0 ? fmt::format("{} ({})", name, times(own->value / best->value)) : name);
-    else
-      add(behind, fmt::format("{} {}", name, best->value > 0 ? times(own->value / best->value) : "(any factor)"));
+    const std::string factor = best->value > 0 ? times(own->value / best->value) : "? ×";
+    add(is_surely_worse(scene, *order[i], *order.front(), rule) ? behind : ties, factor + " " + name);
   }
   verdict.text = fmt::format("{}.", unit_of(rule));
   if (!ties.empty()) verdict.text += " Not surely worse: " + ties + ".";

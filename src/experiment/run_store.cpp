@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/cache_folder.h"
 #include "image/atomic_file.h"
 
 namespace turbid {
@@ -37,8 +38,8 @@ CurvePoint point_from(const Json& json) {
 }  // namespace
 
 RunStore::RunStore(std::string folder) : folder_(std::move(folder)) {
-  fs::create_directories(folder_ + "/runs");
-  fs::create_directories(folder_ + "/images");
+  make_folder(folder_ + "/runs");
+  make_folder(folder_ + "/images");
 }
 
 std::string RunStore::run_path(const std::string& name) const { return folder_ + "/runs/" + name + ".json"; }

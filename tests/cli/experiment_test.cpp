@@ -85,28 +85,33 @@ TEST_F(ExperimentCommand, MistakesAreExplained) {
   EXPECT_FALSE(fs::exists(folder_.path() / "results"));
   outcome = run({"missing.json"});
   EXPECT_EQ(outcome.exit_code, 4);
-  ::setenv("TURBID_VIEWER", folder_.file("none.html").c_str(), 1);
   write(R"("volpath", "seconds": 0.1)", 0.1);
+  outcome = run({"small.json", "-o", "small.xml"});
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.errors.find("small.xml/small: cannot be made"), std::string::npos) << outcome.errors;
+  ::setenv("TURBID_VIEWER", folder_.file("none.html").c_str(), 1);
   outcome = run({"small.json"});
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_NE(outcome.errors.find("./turbid viewer"), std::string::npos) << outcome.errors;
 }
 
-TEST_F(ExperimentCommand, GoesOnAfterCtrlC) {
+TEST_F(ExperimentCommand, GoesOnAfterAnEndOfAnyKind) {
   write(R"("volpath", "seconds": 0.2)", 0.5);
-  testing::ChildProcess child(folder_.path().string(),
-                              {"experiment", "--cache", folder_.file("cache"), "small.json", "-o", "out"});
-  const fs::path first = folder_.path() / "out/small/runs/cloud-a-1.json";
-  for (int i = 0; i < 3000 && !fs::exists(first); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  ASSERT_TRUE(fs::exists(first));
-  child.send(SIGINT);
-  const Outcome outcome = child.wait();
-  EXPECT_NE(outcome.exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder_.path() / "out/small/report.html"));
-  const auto before = fs::last_write_time(first);
-  EXPECT_EQ(run({"small.json", "-o", "out"}).exit_code, 0);
-  EXPECT_EQ(fs::last_write_time(first), before) << "the finished run was made again";
-  EXPECT_TRUE(fs::exists(folder_.path() / "out/small/report.html"));
+  for (const int signal : {SIGINT, SIGKILL}) {
+    const std::string out = "out" + std::to_string(signal);
+    testing::ChildProcess child(folder_.path().string(),
+                                {"experiment", "--cache", folder_.file("cache"), "small.json", "-o", out});
+    const fs::path folder = folder_.path() / out / "small", first = folder / "runs/cloud-a-1.json";
+    for (int i = 0; i < 6000 && !fs::exists(first); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_TRUE(fs::exists(first));
+    child.send(signal);
+    EXPECT_NE(child.wait().exit_code, 0);
+    EXPECT_FALSE(fs::exists(folder / "report.html"));
+    const auto before = fs::last_write_time(first);
+    EXPECT_EQ(run({"small.json", "-o", out}).exit_code, 0);
+    EXPECT_EQ(fs::last_write_time(first), before) << "the finished run was made again";
+    EXPECT_TRUE(fs::exists(folder / "report.html"));
+  }
 }
 
 }  // namespace

@@ -109,8 +109,8 @@ TEST(Verdicts, SayWhichMethodIsBestAndByHowMuch) {
   EXPECT_EQ(verdict.place, "fog");
   EXPECT_EQ(verdict.winner, "fast");
   EXPECT_EQ(verdict.text,
-            "least squared error × time. Not surely worse: as fast (1.0 ×). Time that the others need for the same "
-            "error: slow 4.0 ×.");
+            "least squared error × time. Not surely worse: 1.0 × as fast. Time that the others need for the same "
+            "error: 4.0 × slow.");
 }
 
 TEST(Verdicts, StandInTheReport) {

@@ -1,6 +1,6 @@
 // The page: images of one scene by several methods beside their reference, errors, plots and tables.
 import './style.css';
-import { brief, choice, element, slider } from './dom.js';
+import { brief, choice, element, slider, withError } from './dom.js';
 import { Panels } from './panels.js';
 import { decodePixels, luminance } from './pixels.js';
 import { makePlot } from './plots.js';
@@ -128,7 +128,7 @@ class Comparison {
   caption(image) {
     const index = this.images.indexOf(image) + 1;
     const facts = [];
-    if (image.metrics?.rmse !== undefined) facts.push(`RMSE ${brief(image.metrics.rmse)}`);
+    if (image.metrics?.rmse !== undefined) facts.push(`RMSE ${withError(image.metrics.rmse, image.metrics.rmse_error)}`);
     if (image.metrics?.seconds !== undefined) facts.push(`${brief(image.metrics.seconds)} s`);
     if (image === this.reference) facts.push('reference');
     return [`${index} ${image.name}`, ...facts].join(' · ');

@@ -1,4 +1,4 @@
-import { brief, element } from './dom.js';
+import { brief, element, withError } from './dom.js';
 
 const cell = (value) => (typeof value === 'number' ? brief(value) : (value ?? ''));
 
@@ -59,8 +59,7 @@ export function makeMetrics(images) {
       element('td', {}, image.name),
       ...shown.map(({ key }) => {
         const value = image.metrics[key];
-        const error = image.metrics[`${key}_error`];
-        const text = brief(value) + (error ? ` ± ${brief(error)}` : '');
+        const text = withError(value, image.metrics[`${key}_error`]);
         return element('td', { class: value === best[key] && rated.length > 1 ? 'number best' : 'number' }, text);
       }),
     ),

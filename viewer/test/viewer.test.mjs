@@ -103,7 +103,7 @@ const scales = () => page.$$eval('.frame', (frames) => frames.map((frame) => Num
 test('shows all images, says which is best, and asks the network for nothing', async () => {
   assert.deepEqual(await page.$$eval('.frame', (frames) => frames.map((f) => f.dataset.name)), ['dark', 'bright', 'truth']);
   assert.match(await page.textContent('.summary'), /bright has the least RMSE² × time, by a factor of 2 to dark/);
-  assert.match(await page.textContent('.metrics'), /0\.1 ± 0\.01/);
+  assert.match(await page.textContent('.metrics'), /0\.100 ± 0\.010/);
   assert.deepEqual(await colour('dark', 0, 0), [137, 137, 137, 255]); // sRGB of 0.25
   assert.deepEqual(await colour('dark', 1, 2), [255, 255, 255, 255]);
   assert.deepEqual(problems, []);
@@ -189,7 +189,7 @@ test('begins with the verdicts of an experiment', async () => {
   await write({ ...report, verdicts, groups: [{ ...report.groups[0], images }] });
   await page.goto(pathToFileURL(file).href);
   assert.equal(await page.textContent('.summary'), 'greys: dark: least error. bright 2 ×.');
-  assert.match(await page.textContent('.metrics'), /20 ± 0\.5/);
+  assert.match(await page.textContent('.metrics'), /20\.00 ± 0\.50/);
   await write(report);
   assert.deepEqual(problems, []);
 });
