@@ -137,12 +137,12 @@ TEST_F(ExperimentRun, AnInterruptionKeepsWhatIsFinished) {
   with.tell = [&](const std::string& text) {
     if (text.find("seed ") != std::string::npos && ++runs == 1)
       later = std::jthread([] {
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
         ::raise(SIGINT);
       });
   };
   auto json = small_experiment();
-  json["compare"] = {{"by", "equal time"}, {"seconds", 1}};
+  json["compare"] = {{"by", "equal time"}, {"seconds", 0.4}};
   folder_.write(json);
   EXPECT_THROW(run_experiment(folder_.read(), with), Interrupted);
   later.join();
@@ -153,14 +153,14 @@ TEST_F(ExperimentRun, AnInterruptionKeepsWhatIsFinished) {
 
 TEST_F(ExperimentRun, EqualTimeEndsWithTheTime) {
   auto json = small_experiment();
-  json["compare"] = {{"by", "equal time"}, {"seconds", 0.4}};
+  json["compare"] = {{"by", "equal time"}, {"seconds", 0.2}};
   json["points"] = 4;
   folder_.write(json);
   const ExperimentResult result = run();
   for (const MethodResult& made : result.scenes[0].methods)
     for (const Curve& curve : made.runs) {
       ASSERT_GE(curve.size(), 2u);
-      EXPECT_GE(curve.back().seconds, 0.4);
+      EXPECT_GE(curve.back().seconds, 0.2);
       EXPECT_EQ(curve.back().level, 3);
       for (size_t i = 1; i < curve.size(); ++i) {
         EXPECT_GT(curve[i].samples, curve[i - 1].samples);
@@ -171,15 +171,15 @@ TEST_F(ExperimentRun, EqualTimeEndsWithTheTime) {
 
 TEST_F(ExperimentRun, EqualErrorEndsWithTheError) {
   auto json = small_experiment();
-  json["compare"] = {{"by", "equal error"}, {"error", 0.04}, {"seconds", 20}};
+  json["compare"] = {{"by", "equal error"}, {"error", 0.06}, {"seconds", 2.5}};
   json["points"] = 16;
   folder_.write(json);
   const ExperimentResult result = run();
   const SceneResult& scene = result.scenes[0];
   const MethodResult& paths = scene.method("paths");
   ASSERT_TRUE(paths.score.seconds_to_error);
-  EXPECT_LT(paths.score.seconds_to_error->value, 10);
-  EXPECT_LE(paths.score.relative.value, 0.045);
+  EXPECT_LT(paths.score.seconds_to_error->value, 2.5);
+  EXPECT_LE(paths.score.relative.value, 0.065);
   // Where the error cannot be reached, there is no time.
   json["compare"] = {{"by", "equal error"}, {"error", 1e-5}, {"seconds", 0.1}};
   folder_.write(json);

@@ -113,6 +113,16 @@ TEST(Verdicts, SayWhichMethodIsBestAndByHowMuch) {
             "error: 4.0 × slow.");
 }
 
+TEST(Verdicts, SayWhenRelativeErrorSeesAnotherAhead) {
+  ExperimentResult result = example();
+  SceneResult& scene = result.scenes[0];
+  EXPECT_EQ(verdict_of(scene, EqualBy::kTime).text.find("relMSE"), std::string::npos);
+  scene.methods[0].score.rel_mse = {0.05, 0.001};
+  EXPECT_NE(verdict_of(scene, EqualBy::kTime).text.find("do not rule, slow is ahead."), std::string::npos);
+  scene.methods[0].score.rel_mse = {0.09, 0.02};
+  EXPECT_EQ(verdict_of(scene, EqualBy::kTime).text.find("relMSE"), std::string::npos) << "not sure";
+}
+
 TEST(Verdicts, StandInTheReport) {
   const Report report = report_of(example(), {{"command", "c"}});
   EXPECT_EQ(report.verdicts.size(), 1u);
