@@ -197,6 +197,14 @@ ReportVerdict verdict_of(const SceneResult& scene, EqualBy rule) {
     verdict.text = "no method came to the error asked for in the time given.";
     return verdict;
   }
+  if (order.front()->score.is_lost_in_reference && best->value < 2 * best->error) {
+    verdict.winner = "undecided";
+    verdict.text =
+        "the reference's own squared error is more than half of what is seen; more time would tell (--time-scale).";
+    if (const std::string other = ahead_by_relative_error(order, rule); !other.empty())
+      verdict.text += " By relMSE, which a few bright pixels do not rule, " + other + " is ahead.";
+    return verdict;
+  }
   std::string ties, behind, never;
   const auto add = [](std::string& list, const std::string& item) { list += (list.empty() ? "" : "; ") + item; };
   for (size_t i = 1; i < order.size(); ++i) {
@@ -206,8 +214,8 @@ ReportVerdict verdict_of(const SceneResult& scene, EqualBy rule) {
       add(never, name);
       continue;
     }
-    const std::string factor = best->value > 0 ? times(own->value / best->value) : "? ×";
-    add(is_surely_worse(scene, *order[i], *order.front(), rule) ? behind : ties, factor + " " + name);
+    add(is_surely_worse(scene, *order[i], *order.front(), rule) ? behind : ties,
+        times(own->value / best->value) + " " + name);
   }
   verdict.text = fmt::format("{}.", unit_of(rule));
   if (!ties.empty()) verdict.text += " Not surely worse: " + ties + ".";
@@ -215,8 +223,6 @@ ReportVerdict verdict_of(const SceneResult& scene, EqualBy rule) {
     verdict.text += (rule == EqualBy::kSamples ? " Error of the others over it: "
                                                : " Time that the others need for the same error: ") +
                     behind + ".";
-  if (order.front()->score.is_lost_in_reference)
-    verdict.text += " Its error is below that of the reference: more time would tell more (--time-scale).";
   if (const std::string other = ahead_by_relative_error(order, rule); !other.empty())
     verdict.text += " By relMSE, which a few bright pixels do not rule, " + other + " is ahead.";
   if (!never.empty()) verdict.text += " Not there in the time given: " + never + ".";

@@ -123,6 +123,17 @@ TEST(Verdicts, SayWhenRelativeErrorSeesAnotherAhead) {
   EXPECT_EQ(verdict_of(scene, EqualBy::kTime).text.find("relMSE"), std::string::npos) << "not sure";
 }
 
+TEST(Verdicts, SayWhenTheReferenceIsTooNoisy) {
+  ExperimentResult result = example();
+  MethodScore& best = result.scenes[0].methods[1].score;
+  best.is_lost_in_reference = true;
+  EXPECT_EQ(verdict_of(result.scenes[0], EqualBy::kTime).winner, "fast") << "what is left is known well enough";
+  best.cost = {0.02, 0.05};
+  const ReportVerdict verdict = verdict_of(result.scenes[0], EqualBy::kTime);
+  EXPECT_EQ(verdict.winner, "undecided");
+  EXPECT_TRUE(verdict.text.starts_with("the reference's own squared error")) << verdict.text;
+}
+
 TEST(Verdicts, StandInTheReport) {
   const Report report = report_of(example(), {{"command", "c"}});
   EXPECT_EQ(report.verdicts.size(), 1u);
