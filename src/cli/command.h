@@ -20,6 +20,7 @@ Command add_info_command(CLI::App& app);
 Command add_layers_command(CLI::App& app);
 Command add_list_command(CLI::App& app);
 Command add_table_command(CLI::App& app);
+Command add_experiment_command(CLI::App& app);
 
 inline constexpr int kExitDone = 0, kExitBroken = 1, kExitUsage = 2, kExitInterrupted = 130;
 

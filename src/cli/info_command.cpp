@@ -6,9 +6,9 @@
 #include <set>
 
 #include "cli/command.h"
-#include "cli/scene_choice.h"
 #include "integrator/advice.h"
 #include "render/render_job.h"
+#include "render/scene_choice.h"
 #include "render/statistics.h"
 #include "scene/scene_check.h"
 

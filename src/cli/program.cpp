@@ -69,9 +69,13 @@ int run(int argc, const char* const* argv) {
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.get_formatter()->column_width(34);
-  const std::vector<std::pair<std::string, Command>> commands = {
-      {"render", add_render_command(app)}, {"compare", add_compare_command(app)}, {"layers", add_layers_command(app)},
-      {"info", add_info_command(app)},     {"list", add_list_command(app)},       {"table", add_table_command(app)}};
+  const std::vector<std::pair<std::string, Command>> commands = {{"render", add_render_command(app)},
+                                                                 {"compare", add_compare_command(app)},
+                                                                 {"layers", add_layers_command(app)},
+                                                                 {"info", add_info_command(app)},
+                                                                 {"list", add_list_command(app)},
+                                                                 {"table", add_table_command(app)},
+                                                                 {"experiment", add_experiment_command(app)}};
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "cli/scene_choice.h"
 #include "core/error.h"
 #include "core/log.h"
 #include "core/version.h"
@@ -13,6 +12,7 @@
 #include "integrator/advice.h"
 #include "render/progress.h"
 #include "render/render_job.h"
+#include "render/scene_choice.h"
 #include "render/threads.h"
 
 namespace turbid {
@@ -58,7 +58,7 @@ RenderOptions render_options(const RenderWords& words, const LoadedScene& loaded
   options.resume = words.resume;
   options.quiet = words.quiet;
   options.save_seconds = words.save_seconds;
-  options.fingerprint = scene_fingerprint(words.scene, loaded, words.seed);
+  options.fingerprint = scene_fingerprint(words.scene, loaded.files, words.seed);
   OutputSettings& output = options.output;
   output.path = output_path(words);
   output.exposure = words.exposure;

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "cli/command.h"
-#include "cli/scene_choice.h"
 #include "core/error.h"
 #include "image/image_file.h"
 #include "medium/henyey_greenstein.h"
 #include "medium/homogeneous.h"
+#include "render/scene_choice.h"
 #include "table/field_moments.h"
 #include "table/field_plot.h"
 #include "table/table_cache.h"

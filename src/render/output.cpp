@@ -25,7 +25,7 @@ void describe_image(Image& image, const OutputSettings& settings, const Film& fi
   image.metadata = settings.metadata;
   const uint64_t per_pass = samples_per_pass(film.size());
   image.metadata["samples"] = std::to_string(film.samples());
-  image.metadata["passes"] = std::to_string((film.samples() + per_pass - 1) / per_pass);
+  if (settings.tells_passes) image.metadata["passes"] = std::to_string((film.samples() + per_pass - 1) / per_pass);
   image.metadata["seconds"] = fmt::format("{:.3f}", seconds);
 }
 

@@ -19,6 +19,7 @@ struct OutputSettings {
   std::optional<OutlierSettings> outliers{};  ///< take outliers from the picture (see reject_outliers)
   Vec2i crop_offset{0, 0};                    ///< of the first pixel on the whole film
   Vec2i film_size{0, 0};                      ///< of the whole film; 0: no crop
+  bool tells_passes = true;                   ///< their number is added, too
   Metadata metadata;  ///< scene, command, version, integrator, seed; passes, samples, seconds are added
 
   std::string png_path() const;

@@ -22,10 +22,22 @@ PassPlan::PassPlan(const Vec2i& size, const Budget& budget, uint64_t seed)
   if (budget.passes) target_ = std::min(target_.value_or(UINT64_MAX), *budget.passes * per_pass_);
 }
 
+PassPlan PassPlan::growing(const Budget& budget, uint64_t seed) {
+  PassPlan plan({1, 1}, budget, seed);
+  plan.grows_ = true;
+  return plan;
+}
+
 std::optional<Pass> PassPlan::next(uint64_t samples) const {
   if (target_ && samples >= *target_) return std::nullopt;
-  const uint64_t left = target_ ? *target_ - samples : per_pass_;
-  return Pass{seed_, samples, static_cast<uint32_t>(std::min<uint64_t>(left, per_pass_))};
+  uint64_t count = per_pass_;
+  if (grows_) {
+    // A power of two that divides what there is.
+    const uint64_t divisor = uint64_t{1} << std::countr_zero(samples | kMostPerPixel);
+    count = std::min({count, divisor, std::bit_floor((samples / 32) | 1)});
+  }
+  if (target_) count = std::min(count, *target_ - samples);
+  return Pass{seed_, samples, static_cast<uint32_t>(count)};
 }
 
 }  // namespace turbid

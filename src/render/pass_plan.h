@@ -23,8 +23,13 @@ struct Budget {
 class PassPlan {
  public:
   PassPlan(const Vec2i& size, const Budget& budget, uint64_t seed);
+  /// Passes that grow with what there is, whatever the size of the image: they begin with a sample per pixel and cover
+  /// at most a thirty-second of the samples before them. Whoever has to stop at a time comes close to it with slow
+  /// integrators and with fast ones.
+  static PassPlan growing(const Budget& budget, uint64_t seed);
 
-  uint32_t samples_per_pass() const { return per_pass_; }
+  /// Whole passes end at multiples of this.
+  uint32_t samples_per_pass() const { return grows_ ? 1 : per_pass_; }
   /// Samples per pixel at the end, when that is known beforehand.
   std::optional<uint64_t> target() const { return target_; }
   /// The pass that follows after `samples` whole samples per pixel; empty at the end. Shorter than the others when the
@@ -33,6 +38,7 @@ class PassPlan {
 
  private:
   uint32_t per_pass_;
+  bool grows_ = false;
   uint64_t seed_;
   std::optional<uint64_t> target_;
 };

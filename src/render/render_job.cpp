@@ -34,11 +34,15 @@ class Job {
   Job(const RenderTask& task, const RenderOptions& options)
       : task_(task),
         options_(options),
-        plan_(task.size, options.budget, options.seed),
-        total_(task.size, task.layers) {}
+        plan_(options.growing_passes ? PassPlan::growing(options.budget, options.seed)
+                                     : PassPlan(task.size, options.budget, options.seed)),
+        output_(options.output),
+        total_(task.size, task.layers) {
+    output_.tells_passes = !options.growing_passes;
+  }
 
   RenderResult run() {
-    check_output(options_.output);
+    check_output(output_);
     start_from_checkpoint();
     ProgressBar bar(options_.quiet);
     {
@@ -51,8 +55,8 @@ class Job {
   }
 
  private:
-  bool has_files() const { return !options_.output.path.empty(); }
-  std::string checkpoint_path() const { return options_.output.checkpoint_path(); }
+  bool has_files() const { return !output_.path.empty(); }
+  std::string checkpoint_path() const { return output_.checkpoint_path(); }
   double image_seconds() const { return seconds_before_ + clock_.seconds(); }
 
   void start_from_checkpoint() {
@@ -110,12 +114,16 @@ class Job {
       if (!task_.render_pass(*pass, film, stop_)) break;
       ++statistics_.passes;
       statistics_.samples += film.samples() * film.pixel_count();
-      const std::lock_guard lock(mutex_);
-      if (pass->sample_count < plan_.samples_per_pass()) {
-        short_pass_ = std::move(film);
-        break;
+      {
+        const std::lock_guard lock(mutex_);
+        if (pass->sample_count < plan_.samples_per_pass()) {
+          short_pass_ = std::move(film);
+          break;
+        }
+        total_.add(film);
       }
-      total_.add(film);
+      // Only this thread changes the sums.
+      if (options_.after_pass && !options_.after_pass(total_)) break;
     }
     statistics_.pass_seconds = clock_.seconds() - statistics_.prepare_seconds;
   }
@@ -148,7 +156,7 @@ class Job {
       snapshot = total_;
     }
     try {
-      write_output(options_.output, snapshot, image_seconds());
+      write_output(output_, snapshot, image_seconds());
       if (due) write_checkpoint(checkpoint_path(), options_.fingerprint, image_seconds(), snapshot);
     } catch (const std::exception& error) {
       log_warning(error.what());
@@ -175,7 +183,7 @@ class Job {
       }
     }
     if (short_pass_.pixel_count()) total_.add(short_pass_);
-    if (total_.samples() > 0) result.files = write_output(options_.output, total_, result.seconds);
+    if (total_.samples() > 0) result.files = write_output(output_, total_, result.seconds);
     if (failure) std::rethrow_exception(failure);
     if (has_files() && !keeps_checkpoint && !statistics_.interrupted) {
       std::error_code ignored;
@@ -195,6 +203,7 @@ class Job {
   const RenderTask& task_;
   const RenderOptions& options_;
   const PassPlan plan_;
+  OutputSettings output_;
   const Stopwatch clock_;
   const double cpu_before_ = process_cpu_seconds();
   SignalGuard signals_;

@@ -29,10 +29,13 @@ struct RenderOptions {
   Budget budget;
   uint64_t seed = 0;
   OutputSettings output;
-  uint64_t fingerprint = 0;  ///< of everything that the image depends on, see Checkpoint
-  bool resume = false;       ///< go on from the checkpoint if there is one, and leave one at the end
-  double save_seconds = 60;  ///< how often image and checkpoint are written meanwhile; 0: all the time
-  bool quiet = false;        ///< no progress
+  uint64_t fingerprint = 0;     ///< of everything that the image depends on, see Checkpoint
+  bool resume = false;          ///< go on from the checkpoint if there is one, and leave one at the end
+  double save_seconds = 60;     ///< how often image and checkpoint are written meanwhile; 0: all the time
+  bool quiet = false;           ///< no progress
+  bool growing_passes = false;  ///< see PassPlan
+  /// Called with the sums so far after each whole pass, before the next one; false ends the render as a budget does.
+  std::function<bool(const Film&)> after_pass{};
 };
 
 struct RenderResult {

@@ -57,11 +57,18 @@ Json image_json(const ReportImage& shown) {
   put(metrics, "samples", shown.samples);
   if (shown.metrics) {
     put(metrics, "rmse", shown.metrics->rmse);
-    put(metrics, "rmse_error", shown.rmse_error);
     put(metrics, "psnr", shown.metrics->psnr);
     put(metrics, "rel_mse", shown.metrics->rel_mse);
     put(metrics, "mean_ratio", shown.metrics->mean_ratio);
-    if (shown.seconds) put(metrics, "cost", std::pow(shown.metrics->rmse, 2) * *shown.seconds);
+    if (shown.cost || shown.seconds)
+      put(metrics, "cost", shown.cost ? *shown.cost : std::pow(shown.metrics->rmse, 2) * *shown.seconds);
+    if (shown.errors) {
+      put(metrics, "rmse_error", shown.errors->rmse);
+      put(metrics, "psnr_error", shown.errors->psnr);
+      put(metrics, "rel_mse_error", shown.errors->rel_mse);
+      put(metrics, "mean_ratio_error", shown.errors->mean_ratio);
+      put(metrics, "cost_error", shown.errors->cost);
+    }
     json["metrics"] = metrics;
   } else if (!metrics.empty()) {
     json["facts"] = metrics;
@@ -96,7 +103,10 @@ Json table_json(const ReportTable& table) {
 }  // namespace
 
 Json to_json(const Report& report) {
-  Json groups = Json::array(), plots = Json::array(), tables = Json::array(), facts = Json::object();
+  Json verdicts = Json::array(), groups = Json::array(), plots = Json::array(), tables = Json::array(),
+       facts = Json::object();
+  for (const ReportVerdict& v : report.verdicts)
+    verdicts.push_back({{"place", v.place}, {"winner", v.winner}, {"text", v.text}});
   for (const ReportGroup& group : report.groups) {
     Json images = Json::array();
     for (const ReportImage& image : group.images) images.push_back(image_json(image));
@@ -106,8 +116,9 @@ Json to_json(const Report& report) {
   for (const ReportTable& table : report.tables) tables.push_back(table_json(table));
   for (const auto& [name, value] : report.facts) facts[name] = value;
   return {{"title", report.title}, {"subtitle", report.subtitle},
-          {"groups", groups},      {"plots", plots},
-          {"tables", tables},      {"facts", facts}};
+          {"verdicts", verdicts},  {"groups", groups},
+          {"plots", plots},        {"tables", tables},
+          {"facts", facts}};
 }
 
 std::string to_html(const Report& report, const std::string& viewer) {

@@ -10,13 +10,20 @@
 
 namespace turbid {
 
+/// Standard errors of numbers in ImageMetrics, over repeated seeds.
+struct MetricErrors {
+  double rmse = 0, psnr = 0, rel_mse = 0, mean_ratio = 0;
+  double cost = 0;  ///< of squared error x time
+};
+
 /// One image of a report and what is known of it.
 struct ReportImage {
   std::string name;
   Image image;
   bool is_reference = false;
   std::optional<ImageMetrics> metrics{};  ///< against the reference of its group
-  std::optional<double> rmse_error{};     ///< standard error of metrics->rmse, over repeated seeds
+  std::optional<MetricErrors> errors{};   ///< of the metrics
+  std::optional<double> cost{};           ///< squared error x time; else made of metrics->rmse and seconds
   std::optional<double> seconds{};        ///< that it took
   std::optional<double> samples{};        ///< per pixel
 };
@@ -46,9 +53,15 @@ struct ReportTable {
   std::vector<std::vector<Cell>> rows;
 };
 
+/// Which image of a group is best, and how far the others are behind: the page begins with it.
+struct ReportVerdict {
+  std::string place, winner, text;
+};
+
 /// What one HTML page shows: images, plots, tables, and how it all was made.
 struct Report {
   std::string title, subtitle{};
+  std::vector<ReportVerdict> verdicts{};  ///< none: the viewer says what it can from the metrics
   std::vector<ReportGroup> groups{};
   std::vector<ReportPlot> plots{};
   std::vector<ReportTable> tables{};

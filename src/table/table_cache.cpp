@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <mutex>
 
+#include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/log.h"
@@ -16,16 +16,8 @@
 namespace turbid {
 namespace {
 
-std::string cache_folder(const std::string& wanted) {
-  if (!wanted.empty()) return wanted;
-  const auto variable = [](const char* name) -> std::string {
-    const char* value = std::getenv(name);
-    return value ? value : "";
-  };
-  if (const std::string folder = variable("TURBID_TABLES"); !folder.empty()) return folder;
-  if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty()) return cache + "/turbid/tables";
-  const std::string home = variable("HOME");
-  return (home.empty() ? "." : home) + "/.cache/turbid/tables";
+std::string folder_for(const std::string& wanted) {
+  return wanted.empty() ? cache_folder("tables", "TURBID_TABLES") : wanted;
 }
 
 /// What is asked for in full.
@@ -43,7 +35,7 @@ struct Order {
     uint64_t key = hash_counters(kTableVersion, settings.seed, settings.deposits,
                                  static_cast<uint64_t>(shape.grid.radii()), static_cast<uint64_t>(shape.grid.angles()));
     for (const double moment : moments) key = hash_counters(key, static_cast<uint64_t>(std::llround(moment * 1e6)));
-    path = fmt::format("{}/g{:.3f}-{:016x}.h5", cache_folder(request.folder), moments[1], key);
+    path = fmt::format("{}/g{:.3f}-{:016x}.h5", folder_for(request.folder), moments[1], key);
   }
 
   bool matches(const ScatteringTable& table) const {

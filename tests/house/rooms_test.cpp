@@ -15,9 +15,10 @@ const std::filesystem::path kRoot = TURBID_ROOT;
 const std::filesystem::path kDoors = TURBID_DOORS;
 
 /// The rooms, lower ones first: none may see one that stands behind it.
-const std::vector<std::string> kRooms = {
-    "core", "image",      "report",    "geometry", "texture",   "surface", "medium",     "emitter", "sensor", "scene",
-    "path", "refraction", "gathering", "photon",   "manylight", "table",   "integrator", "render",  "cli"};
+const std::vector<std::string> kRooms = {"core",    "image",      "report",    "geometry",   "texture",
+                                         "surface", "medium",     "emitter",   "sensor",     "scene",
+                                         "path",    "refraction", "gathering", "photon",     "manylight",
+                                         "table",   "integrator", "render",    "experiment", "cli"};
 
 bool sees(const std::string& room, const std::string& other) {
   const std::vector<std::string> folders = read_lines(kDoors / room);

@@ -28,6 +28,20 @@ TEST(PassPlan, EndsExactlyAtTheSamplesAskedFor) {
   EXPECT_FALSE(plan.next(24));
 }
 
+TEST(PassPlan, CanGrow) {
+  const PassPlan plan = PassPlan::growing({.samples = 5000}, 3);
+  uint64_t samples = 0, largest = 0;
+  while (const auto pass = plan.next(samples)) {
+    EXPECT_EQ(pass->first_sample, samples);
+    EXPECT_TRUE(pass->sample_count == 1 || pass->sample_count * 32 <= samples) << samples;
+    EXPECT_TRUE(samples % pass->sample_count == 0 || samples + pass->sample_count == 5000) << samples;
+    largest = std::max<uint64_t>(largest, pass->sample_count);
+    samples += pass->sample_count;
+  }
+  EXPECT_EQ(samples, 5000u);
+  EXPECT_EQ(largest, 64u);
+}
+
 TEST(PassPlan, PassesAndNoEnd) {
   EXPECT_EQ(PassPlan({256, 256}, {.passes = 3}, 0).target(), 24u);
   const PassPlan endless({256, 256}, {.seconds = 3}, 0);

@@ -98,6 +98,23 @@ TEST_F(RenderJob, EndsAtTheSamplesAskedForAndWritesItsFiles) {
     EXPECT_NE(json.find(word), std::string::npos) << word << " in " << json;
 }
 
+TEST_F(RenderJob, IsLookedAtAfterEachPassAndEndsWhenToldTo) {
+  RenderOptions with = options({});
+  with.growing_passes = true;
+  std::vector<uint64_t> seen;
+  with.after_pass = [&](const Film& film) {
+    seen.push_back(film.samples());
+    return film.samples() < 3;
+  };
+  const RenderResult result = render(ToyTask().task(), with);
+  EXPECT_EQ(seen, (std::vector<uint64_t>{1, 2, 3}));
+  EXPECT_EQ(result.film.samples(), 3u);
+  EXPECT_FALSE(result.statistics.interrupted);
+  EXPECT_FALSE(read_image(folder_.file("a.exr")).metadata.contains("passes"));
+  const Film whole = uninterrupted(3);
+  EXPECT_NEAR(result.film.pixel(9).radiance[0], whole.pixel(9).radiance[0], 1e-9 * whole.pixel(9).radiance[0]);
+}
+
 TEST_F(RenderJob, SameBitsWithAnyNumberOfThreads) {
   const auto film_with = [](int threads) { return with_threads(threads, [] { return uninterrupted(200); }); };
   const Film one = film_with(1);

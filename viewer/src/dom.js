@@ -37,6 +37,17 @@ export function slider(label, { min, max, step, value, format }, change) {
   return element('label', { class: 'control' }, label, input, output);
 }
 
+/** A number and its uncertainty, that to two digits and the number as far; without an uncertainty as `brief`. */
+export function withError(value, error) {
+  if (!Number.isFinite(error) || !(error > 0) || !Number.isFinite(value)) return brief(value);
+  const digits = Math.floor(Math.log10(error)) - 1; // of the last place that is shown
+  const size = Math.floor(Math.log10(Math.max(Math.abs(value), error)));
+  if (size < -3 || size >= 5)
+    return `${value.toExponential(Math.min(6, Math.max(0, size - digits)))} ± ${error.toExponential(1)}`;
+  const places = Math.min(8, Math.max(0, -digits));
+  return `${value.toFixed(places)} ± ${error.toFixed(places)}`;
+}
+
 /** A number of four digits, short. */
 export function brief(value) {
   if (value === null || value === undefined) return '';

@@ -1,6 +1,6 @@
 // The page: images of one scene by several methods beside their reference, errors, plots and tables.
 import './style.css';
-import { brief, choice, element, slider } from './dom.js';
+import { brief, choice, element, slider, withError } from './dom.js';
 import { Panels } from './panels.js';
 import { decodePixels, luminance } from './pixels.js';
 import { makePlot } from './plots.js';
@@ -128,7 +128,7 @@ class Comparison {
   caption(image) {
     const index = this.images.indexOf(image) + 1;
     const facts = [];
-    if (image.metrics?.rmse !== undefined) facts.push(`RMSE ${brief(image.metrics.rmse)}`);
+    if (image.metrics?.rmse !== undefined) facts.push(`RMSE ${withError(image.metrics.rmse, image.metrics.rmse_error)}`);
     if (image.metrics?.seconds !== undefined) facts.push(`${brief(image.metrics.seconds)} s`);
     if (image === this.reference) facts.push('reference');
     return [`${index} ${image.name}`, ...facts].join(' · ');
@@ -169,7 +169,12 @@ function meanLuminance(values) {
   return (3 * sum) / values.length;
 }
 
-function summary(groups) {
+/** The verdicts of the report, or what can be said from the metrics. */
+function summary({ verdicts, groups = [] }) {
+  if (verdicts?.length)
+    return verdicts.map(({ place, winner, text }) =>
+      element('p', { class: 'summary' }, `${place}: `, element('strong', {}, winner), winner ? ': ' : '', text),
+    );
   const lines = groups.flatMap(({ title, images }) => {
     const { key, image } = bestOf(images);
     if (!image || images.filter((i) => i.metrics).length < 2) return [];
@@ -208,7 +213,7 @@ function main() {
     if (!event.target.closest('input, select') && !event.ctrlKey && !event.metaKey) active?.key(event);
   });
   document.getElementById('app').append(
-    element('header', {}, element('h1', {}, report.title), element('p', {}, report.subtitle ?? ''), ...summary(groups)),
+    element('header', {}, element('h1', {}, report.title), element('p', {}, report.subtitle ?? ''), ...summary(report)),
     ...comparisons.map((comparison) => comparison.root),
     element('div', { class: 'plots' }, ...(report.plots ?? []).map(makePlot)),
     element('div', { class: 'tables' }, ...(report.tables ?? []).map(makeTable)),

@@ -1,4 +1,4 @@
-import { brief, element } from './dom.js';
+import { brief, element, withError } from './dom.js';
 
 const cell = (value) => (typeof value === 'number' ? brief(value) : (value ?? ''));
 
@@ -27,7 +27,7 @@ export function makeTable({ title, columns, rows }) {
 const measures = [
   { key: 'seconds', name: 'time, s' },
   { key: 'samples', name: 'samples' },
-  { key: 'rmse', name: 'RMSE', least: true, uncertain: true },
+  { key: 'rmse', name: 'RMSE', least: true },
   { key: 'psnr', name: 'PSNR, dB', most: true },
   { key: 'rel_mse', name: 'relMSE', least: true },
   { key: 'mean_ratio', name: 'mean ratio' },
@@ -57,10 +57,9 @@ export function makeMetrics(images) {
       'tr',
       {},
       element('td', {}, image.name),
-      ...shown.map(({ key, uncertain }) => {
+      ...shown.map(({ key }) => {
         const value = image.metrics[key];
-        const error = uncertain && image.metrics[`${key}_error`];
-        const text = brief(value) + (error ? ` ± ${brief(error)}` : '');
+        const text = withError(value, image.metrics[`${key}_error`]);
         return element('td', { class: value === best[key] && rated.length > 1 ? 'number best' : 'number' }, text);
       }),
     ),

@@ -57,12 +57,16 @@ let folder;
 let file;
 const problems = [];
 
+async function write(shown) {
+  const viewer = await readFile(resolve(import.meta.dirname ?? '.', '../viewer.html'), 'utf8');
+  const json = JSON.stringify(shown).replaceAll('<', '\\u003c');
+  await writeFile(file, viewer.replace('<!--report-->', () => json));
+}
+
 before(async () => {
   folder = await mkdtemp(join(tmpdir(), 'viewer-'));
   file = join(folder, 'report.html');
-  const viewer = await readFile(resolve(import.meta.dirname ?? '.', '../viewer.html'), 'utf8');
-  const json = JSON.stringify(report).replaceAll('<', '\\u003c');
-  await writeFile(file, viewer.replace('<!--report-->', () => json));
+  await write(report);
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     args: ['--no-sandbox', '--disable-gpu'],
@@ -99,7 +103,7 @@ const scales = () => page.$$eval('.frame', (frames) => frames.map((frame) => Num
 test('shows all images, says which is best, and asks the network for nothing', async () => {
   assert.deepEqual(await page.$$eval('.frame', (frames) => frames.map((f) => f.dataset.name)), ['dark', 'bright', 'truth']);
   assert.match(await page.textContent('.summary'), /bright has the least RMSE² × time, by a factor of 2 to dark/);
-  assert.match(await page.textContent('.metrics'), /0\.1 ± 0\.01/);
+  assert.match(await page.textContent('.metrics'), /0\.100 ± 0\.010/);
   assert.deepEqual(await colour('dark', 0, 0), [137, 137, 137, 255]); // sRGB of 0.25
   assert.deepEqual(await colour('dark', 1, 2), [255, 255, 255, 255]);
   assert.deepEqual(problems, []);
@@ -173,5 +177,19 @@ test('reads pixel values under the cursor, and flips by number', async () => {
 test('plots curves with their slopes', async () => {
   assert.match(await page.textContent('.plot'), /a \(slope -1\.00\)/);
   assert.match(await page.textContent('.table'), /a1\.25/);
+  assert.deepEqual(problems, []);
+});
+
+test('begins with the verdicts of an experiment', async () => {
+  const verdicts = [{ place: 'greys', winner: 'dark', text: 'least error. bright 2 ×.' }];
+  const images = report.groups[0].images.map((image) => ({
+    ...image,
+    metrics: image.metrics && { ...image.metrics, psnr: 20, psnr_error: 0.5 },
+  }));
+  await write({ ...report, verdicts, groups: [{ ...report.groups[0], images }] });
+  await page.goto(pathToFileURL(file).href);
+  assert.equal(await page.textContent('.summary'), 'greys: dark: least error. bright 2 ×.');
+  assert.match(await page.textContent('.metrics'), /20\.00 ± 0\.50/);
+  await write(report);
   assert.deepEqual(problems, []);
 });

@@ -1,17 +1,17 @@
-#include "cli/scene_choice.h"
+#include "render/scene_choice.h"
 
 #include <fmt/format.h>
 
 #include <charconv>
 #include <filesystem>
 
-#include "cli/default_scene.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/log.h"
 #include "core/version.h"
 #include "image/atomic_file.h"
 #include "integrator/integrators.h"
+#include "render/default_scene.h"
 
 namespace turbid {
 namespace {
@@ -116,23 +116,25 @@ std::string describe_value(const Value& value) {
 
 }  // namespace
 
-LoadedScene open_scene(const SceneChoice& choice) {
+SceneDocument read_chosen(const SceneChoice& choice) {
   const Overrides overrides = read_definitions(choice.definitions);
   SceneDocument document = choice.file.empty()
                                ? read_document_from_string(std::string(default_scene()), choice.name(), overrides)
                                : read_document(choice.file, overrides);
   if (!choice.size.empty()) set_film_size(document, read_size(choice.size));
   if (!choice.integrator.empty()) set_integrator(document, choice.integrator);
-  return load_scene(std::move(document));
+  return document;
 }
 
-uint64_t scene_fingerprint(const SceneChoice& choice, const LoadedScene& scene, uint64_t seed) {
+LoadedScene open_scene(const SceneChoice& choice) { return load_scene(read_chosen(choice)); }
+
+uint64_t scene_fingerprint(const SceneChoice& choice, const std::vector<std::filesystem::path>& files, uint64_t seed) {
   uint64_t hash = seed;
   const auto add = [&hash](std::string_view text) { hash = hash_bytes(text, hash); };
   add(version());
   add(version_commit());
   if (choice.file.empty()) add(default_scene());
-  for (const std::filesystem::path& file : scene.files)
+  for (const std::filesystem::path& file : files)
     if (std::filesystem::exists(file)) add(read_file(file.string()));
   for (const std::string& definition : choice.definitions) add(definition);
   add(choice.integrator);
