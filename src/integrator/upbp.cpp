@@ -44,7 +44,10 @@ std::unique_ptr<SplattingIntegrator::Worker> Upbp::make_worker(const Scene& scen
 /// (Not found, though: a delta light seen in nothing but specular vertices; without `bpt` and merges at surfaces, a
 /// delta light on surfaces alone.)
 PathSupport Upbp::support() const {
-  return {.specular_at_sensor = true, .specular_at_delta_light = true, .beams = true, .glowing_media = true};
+  return {.specular_at_sensor = true,
+          .specular_at_delta_light = true,
+          .beams = true,
+          .glowing_media = own_.table.source == TableSettings::Source::kNone};
 }
 
 void Upbp::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
