@@ -7,6 +7,7 @@
 
 #include "cli/command.h"
 #include "integrator/advice.h"
+#include "integrator/table_advice.h"
 #include "render/render_job.h"
 #include "render/scene_choice.h"
 #include "render/statistics.h"
@@ -78,6 +79,14 @@ void print_medium(const Scene& scene, const Surroundings& surroundings) {
   fmt::print("{:<12}   mean free path {} scene units{}, albedo {}, mean cosine {:.3g}\n", "", rgb(path),
              extent > 0 ? fmt::format(", {} of its extent ({:.4g})", rgb(path / extent), extent) : "", rgb(albedo),
              m.phase().mean_cosine());
+  // For tables of multiple scattering.
+  constexpr float kFar = 1.25f;
+  const float ratio = brightness_without_end(scene, m);
+  if (ratio > kFar || ratio < 1 / kFar)
+    fmt::print(
+        "{:<12}   without its end it would reflect about {:.2g} times as much from order 3 on: tables need boundary = "
+        "image\n",
+        "", ratio);
 }
 
 void print_lights(const Scene& scene, const SceneNode& root) {

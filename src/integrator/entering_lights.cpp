@@ -159,4 +159,14 @@ size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) 
   return std::max<size_t>(1, static_cast<size_t>(std::lround(paths)));
 }
 
+void EnteringLightSets::prepare(const EnteringLightsPlan& plan, size_t lights, uint64_t sample,
+                                SampleCounters& counters) {
+  const uint64_t set = set_of(sample);
+  if (lights_ && seed_ == plan.seed && set_ == set) return;
+  if (paths_ == 0 || seed_ != plan.seed) paths_ = paths_for_entering_lights(plan, lights);
+  lights_ = std::make_unique<const EnteringLights>(plan, paths_, set, counters);
+  seed_ = plan.seed;
+  set_ = set;
+}
+
 }  // namespace turbid

@@ -59,4 +59,22 @@ class EnteringLights {
 /// How many light paths make about so many entering lights; found by a pilot that depends on the plan alone.
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights);
 
+/// The sets of a render, one after the other: samples of all pixels share a set, named by seed and number.
+class EnteringLightSets {
+ public:
+  static constexpr uint64_t kReuse = 16;  ///< samples
+  static uint64_t set_of(uint64_t sample) { return sample / kReuse; }
+
+  /// Makes the set of that sample of all pixels, unless it is there: about so many lights.
+  void prepare(const EnteringLightsPlan& plan, size_t lights, uint64_t sample, SampleCounters& counters);
+  /// Null before the first.
+  const EnteringLights* current() const { return lights_.get(); }
+  void clear() { lights_.reset(), paths_ = 0; }
+
+ private:
+  std::unique_ptr<const EnteringLights> lights_;
+  uint64_t seed_ = 0, set_ = 0;
+  size_t paths_ = 0;  ///< of each set, found for the seed
+};
+
 }  // namespace turbid

@@ -57,29 +57,23 @@ PixelSample PathTracer::sample_radiance(const Scene& scene, const SensorRay& cam
 
 PixelSample PathTracer::trace_with_table(const Scene& scene, const SensorRay& camera, Sampler& sampler,
                                          SampleCounters& counters) const {
-  TableGatherer gatherer(scene, settings_, *entering_, entering_settings_.samples, sampler, counters);
+  TableGatherer gatherer(scene, settings_, *entering_.current(), entering_settings_.samples, sampler, counters);
   const float alpha = CameraWalk<TableGatherer>(scene, settings_, sampler, counters, gatherer).run(camera);
   PixelSample sample = gatherer.result();
   sample.alpha = alpha;
   return sample;
 }
 
-/// With tables, in parts whose samples share a set of entering lights, named by seed and number.
+/// With tables, in parts whose samples share a set of entering lights.
 bool PathTracer::render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) {
   if (!table_) return SamplingIntegrator::render_pass(scene, pass, film, stop);
   const EnteringLightsPlan plan{scene, *sources_, settings_, *table_, pass.seed};
-  if (entering_paths_ == 0 || entering_seed_ != pass.seed)
-    entering_paths_ = paths_for_entering_lights(plan, entering_settings_.lights);
   const uint64_t end = pass.first_sample + pass.sample_count;
   for (uint64_t first = pass.first_sample; first < end;) {
-    const uint64_t set = first / kReuse, next = std::min(end, (set + 1) * kReuse);
-    if (!entering_ || entering_seed_ != pass.seed || entering_set_ != set) {
-      SampleCounters counters;
-      entering_ = std::make_unique<const EnteringLights>(plan, entering_paths_, set, counters);
-      entering_seed_ = pass.seed;
-      entering_set_ = set;
-      add_counters(counters);
-    }
+    const uint64_t next = std::min(end, (EnteringLightSets::set_of(first) + 1) * EnteringLightSets::kReuse);
+    SampleCounters counters;
+    entering_.prepare(plan, entering_settings_.lights, first, counters);
+    add_counters(counters);
     if (!SamplingIntegrator::render_pass(scene, {pass.seed, first, static_cast<uint32_t>(next - first)}, film, stop))
       return false;
     first = next;
@@ -92,8 +86,7 @@ void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
   if (table_settings_.source == TableSettings::Source::kNone) return;
   table_ = std::make_unique<const TableLight>(scene, table_settings_);
   table_->limit(settings_);
-  entering_paths_ = 0;
-  entering_.reset();
+  entering_.clear();
   sources_ = std::make_unique<const LightSources>(scene, true);
 }
 

@@ -57,12 +57,7 @@ class PathTracer : public SamplingIntegrator {
   std::unique_ptr<const RefractiveScattering> scattering_;
   std::unique_ptr<const TableLight> table_;  ///< null: paths find all light
   std::unique_ptr<const LightSources> sources_;
-  size_t entering_paths_ = 0;
-
-  /// Samples of the pixels that share a set of entering lights.
-  static constexpr uint64_t kReuse = 16;
-  std::unique_ptr<const EnteringLights> entering_;  ///< of the samples that are being made
-  uint64_t entering_seed_ = 0, entering_set_ = 0;
+  EnteringLightSets entering_;
 };
 
 /// Rows of the integrator table: `path`, `direct`, `volpath`, `singlescatter`.

@@ -56,6 +56,8 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
     if (medium->sigma_s().is_black()) continue;
     try {
       const bool walks = settings.source == TableSettings::Source::kModel;
+      if (walks && medium->albedo().max() > static_cast<float>(kLargestAlbedo))
+        throw std::invalid_argument(fmt::format("walks without end need an albedo of at most {}", kLargestAlbedo));
       entries_.push_back(
           {medium, walks ? nullptr
                          : std::make_unique<const MultipleScattering>(

@@ -20,8 +20,8 @@ class Upbp::Tracer final : public SplattingIntegrator::Worker {
   Tracer(const Upbp& owner, const Scene& scene, uint64_t seed, SampleCounters& counters)
       : owner_(owner),
         worker_({scene, *owner.sources_, owner.path_, *owner.weights_, owner.own_.connections, owner.scattering_.get()},
-                seed, counters, *owner.gatherer_, owner.own_.long_flights,
-                owner.entering_ ? &*owner.entering_ : nullptr, owner.own_.entering.samples, work_) {}
+                seed, counters, *owner.gatherer_, owner.own_.long_flights, owner.entering_.current(),
+                owner.own_.entering.samples, work_) {}
 
   ~Tracer() override {
     const std::lock_guard lock(owner_.counters_mutex_);
@@ -44,7 +44,10 @@ std::unique_ptr<SplattingIntegrator::Worker> Upbp::make_worker(const Scene& scen
 /// (Not found, though: a delta light seen in nothing but specular vertices; without `bpt` and merges at surfaces, a
 /// delta light on surfaces alone.)
 PathSupport Upbp::support() const {
-  return {.specular_at_sensor = true, .specular_at_delta_light = true, .beams = true, .glowing_media = true};
+  return {.specular_at_sensor = true,
+          .specular_at_delta_light = true,
+          .beams = true,
+          .glowing_media = own_.table.source == TableSettings::Source::kNone};
 }
 
 void Upbp::prepare(const Scene& scene, uint64_t seed, const StopFlag& stop) {
@@ -61,7 +64,7 @@ void Upbp::prepare_workers(const Scene& scene) {
   if (own_.table.source != TableSettings::Source::kNone) {
     table_ = std::make_unique<const TableLight>(scene, own_.table);
     table_->limit(path_);
-    entering_paths_ = 0;
+    entering_.clear();
   }
   first_radius_ = own_.radius ? *own_.radius : default_media_radius(scene, own_.pixels);
   first_surface_radius_ = own_.surface_radius ? *own_.surface_radius : default_surface_radius(scene, own_.pixels);
@@ -111,9 +114,8 @@ bool Upbp::prepare_round(const Scene& scene, uint64_t seed, uint64_t index, int,
   map_.index(first_radius_);
   if (table_ && !finds_scale_) {
     const EnteringLightsPlan plan{scene, *sources_, path_, *table_, seed};
-    if (entering_paths_ == 0) entering_paths_ = paths_for_entering_lights(plan, own_.entering.lights);
     SampleCounters counters;
-    entering_.emplace(plan, entering_paths_, index, counters);
+    entering_.prepare(plan, own_.entering.lights, index, counters);
     add_counters(counters);
   }
   points_ += map_.photons.collisions.size() + map_.photons.surfaces.size();

@@ -88,10 +88,9 @@ class Upbp : public SplattingIntegrator {
   bool finds_scale_ = false;  ///< of splats, which needs no photons
 
   std::unique_ptr<const TableLight> table_;  ///< null: techniques find multiple scattering, too
-  size_t entering_paths_ = 0;
+  EnteringLightSets entering_;
 
   // Of the image that is being made.
-  std::optional<EnteringLights> entering_;
   PhotonSettings leaves_;
   std::optional<StrategyWeights> weights_;
   std::optional<PhotonGatherer> gatherer_;

@@ -69,6 +69,16 @@ TEST_F(Info, WarnsOfBoundaries) {
                "skips about 6 % of a mean free path (finer triangles skip less)\n");
 }
 
+TEST_F(Info, SaysWhichMediaATableAloneMakesTooBright) {
+  const auto ball = [](const std::string& albedo) {
+    return R"(<shape type="sphere"><bsdf type="null"/><medium name="interior" type="homogeneous">
+      <rgb name="sigma_t" value="30"/><rgb name="albedo" value=")" +
+           albedo + R"("/></medium></shape>)";
+  };
+  expect_words(about(ball("0.99")), "without its end it would reflect about 3.5 times as much");
+  EXPECT_EQ(about(ball("0.5")).find("without its end"), std::string::npos);
+}
+
 TEST_F(Info, WarnsOfSensorsInMediaThatNoShapeDeclares) {
   const std::string text = about("<sensor type=\"perspective\"><medium type=\"homogeneous\"/></sensor>" + kSky);
   EXPECT_EQ(text.find("no shape declares"), std::string::npos) << "the first sensor counts\n" << text;
