@@ -91,7 +91,7 @@ float pixel_radius(const Scene& scene, float pixels) {
 }
 
 float default_surface_radius(const Scene& scene, float pixels) {
-  constexpr float kMostEmpty = 0.01f, kStep = 0.8f;
+  constexpr float kMostEmpty = 0.005f, kStep = 0.8f;
   constexpr int kMostSteps = 24;
   const std::vector<SeenSurface> seen = seen_surfaces(scene);
   float radius = pixel_radius(scene, pixels);
