@@ -31,7 +31,7 @@ struct SeenSurface {
 /// What rays through the film meet, straight on through all that merges nothing (smooth or null).
 std::vector<SeenSurface> seen_surfaces(const Scene& scene) {
   constexpr int kRays = 1024, kMostPassed = 8;
-  // Spread evenly (the powers of the plastic number, Roberts 2018), at all distances from edges.
+  // Spread evenly, by powers of the plastic number, at all distances from edges.
   constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
   std::vector<SeenSurface> seen;
   for (int i = 1; i <= kRays; ++i) {
