@@ -6,9 +6,6 @@ namespace {
 double disk(float radius) { return static_cast<double>(kPi * sqr(radius)); }
 double ball(float radius) { return static_cast<double>(4.0f / 3 * kPi * sqr(radius) * radius); }
 
-/// Light at one side of a thin thing must not count on the other, nor around an edge.
-constexpr float kSameSurface = 0.5f;
-
 }  // namespace
 
 Merging merging_by(const KernelRadii& radii, const PhotonCounts& counts, float inhomogeneous) {

@@ -6,6 +6,10 @@
 
 namespace turbid {
 
+/// Least cosine between the normals of a vertex and a photon on a surface: light at one side of a thin thing must not
+/// count on the other, nor around an edge.
+inline constexpr float kSameSurface = 0.5f;
+
 /// Radii of the kernels, scene units; constant in space, so that both walks of a path know the measures in its weights.
 struct KernelRadii {
   float surface = 0, point_point = 0, point_beam = 0, beam_point = 0, beam_beam = 0;
