@@ -134,6 +134,8 @@ void print_equal_time(const ContestSettings& settings, bool of_statue) {
   print_row(intervals, intervals);
   print_row(point.run("triangle intervals, midpoint", kIntervals + ",midpoint=true", settings.samples), intervals);
   print_row(point.run_for("point sampling", kPoints, intervals.shot.seconds), intervals);
+  for (const char* photons : {"bre", "beams"})
+    print_row(point.run_for(photons, photons + kOrderOne, intervals.shot.seconds), intervals);
 
   const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings,
                      kIntervalsAndPaths);
@@ -156,6 +158,7 @@ void print_equal_quality(const ContestSettings& settings, double factor) {
                             fmt::format("singlescatter,method=point_sampling,samples={}", samples) + kOrderOne,
                             factor * intervals.shot.seconds),
               intervals);
+  print_row(point.run_for("bre", "bre" + kOrderOne, factor * intervals.shot.seconds), intervals);
 
   const Contest lamp(subject.name + ", lamp", subject.under_ball(settings.scenes, kLampRadius), settings,
                      kIntervalsAndPaths);
