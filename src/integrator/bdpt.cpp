@@ -14,6 +14,14 @@ Parameter heuristic_parameter(const std::string& value) {
   return {"heuristic", ParameterType::kString, value, "how the ways to make a path share it: power or balance"};
 }
 
+Parameter connections_parameter() {
+  return {"connections",
+          ParameterType::kFloat,
+          "8",
+          "about how many of the joining lines are tried for paths of one length",
+          {.min = 1}};
+}
+
 StrategyWeights::Heuristic heuristic_of(const Properties& properties) {
   const std::string heuristic = properties.string("heuristic");
   if (heuristic != "power" && heuristic != "balance")
@@ -28,11 +36,7 @@ IntegratorPlugin bdpt_row() {
           "each other",
           with_common_parameters(
               {heuristic_parameter("power"),
-               {"connections",
-                ParameterType::kFloat,
-                "8",
-                "about how many of the joining lines are tried for paths of one length",
-                {.min = 1}},
+               connections_parameter(),
                {"visualize_strategies", ParameterType::kBoolean, "false",
                 "writes what each way contributes as layers strategy.weighted.K.S and strategy.plain.K.S: K edges, S "
                 "vertices from the light"},

@@ -54,6 +54,8 @@ class BidirectionalPathTracer : public SplattingIntegrator {
 /// The parameter `heuristic` of bidirectional methods; `value`: its default.
 Parameter heuristic_parameter(const std::string& value);
 StrategyWeights::Heuristic heuristic_of(const Properties& properties);
+/// Their parameter `connections` (BdptSettings::connections).
+Parameter connections_parameter();
 
 /// Row of the integrator table: `bdpt`.
 IntegratorPlugin bdpt_row();

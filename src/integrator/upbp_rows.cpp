@@ -17,11 +17,7 @@ std::vector<Parameter> parameters(const std::string& techniques) {
        "(photons at surfaces), pp3d, pb2d (photon points near collisions, near flights), bp2d, bb1d (photon beams); "
        "auto: a pilot chooses"},
       heuristic_parameter("balance"),
-      {"connections",
-       ParameterType::kFloat,
-       "8",
-       "about how many of the joining lines are tried for paths of one length",
-       {.min = 1}},
+      connections_parameter(),
       {"radius", ParameterType::kFloat, "0",
        "of kernels in media in the first image, scene units; 0: a pixel, and no more than keeps the bias at "
        "boundaries "

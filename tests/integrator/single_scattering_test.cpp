@@ -21,6 +21,14 @@ const std::string& lamp_over_ball() {
   return xml;
 }
 
+/// Sensor and a dull ball in the glass: walks from the light are joined and merged behind V, too.
+const std::string& seen_from_within() {
+  static const std::string xml = scene(lamp("0.8, 0.9, 3", 0.5f) + kFloor + bumpy(kGlass + clear()) +
+                                           ball("0, 0.3, 0.85", 0.2f, R"(<bsdf type="diffuse"/>)"),
+                                       integer("max_depth", 5), camera_inside());
+  return xml;
+}
+
 struct Light {
   double sum = 0, error = 0;  ///< of channels that may be fully correlated
 };
@@ -55,6 +63,16 @@ TEST_P(SingleScatteringOfPaths, ByRefractionMakesThePictureOfBdpt) {
   const Agreement agreement = compare_with_bdpt(GetParam());
   EXPECT_TRUE(agreement.accepted(10)) << agreement.report();
   expect_to_notice(agreement);
+}
+
+TEST(SingleScattering, ByRefractionIsNotJoinedOrMergedAgain) {
+  const Observation reference = observe(seen_from_within(), {"bdpt", 48, 1, 1}, kBlock);
+  for (const char* way : {"bdpt", "upbp,techniques=surf+pb2d,radius=0.03,surface_radius=0.02,keep=1"}) {
+    const std::string refractive = std::string(way) + ",single_scattering=refractive";
+    const Agreement agreement = compare(reference, observe(seen_from_within(), {refractive, 8, 1, 2}, kBlock));
+    EXPECT_TRUE(agreement.accepted(2)) << way << "\n" << agreement.report();
+    expect_to_notice(agreement);
+  }
 }
 
 TEST(SingleScattering, HarnessNoticesAPlantedError) { EXPECT_FALSE(compare_with_bdpt("bdpt", 1.3).accepted(10)); }
