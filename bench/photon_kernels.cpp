@@ -111,7 +111,7 @@ void photon_boxes_build(benchmark::State& state) {
 void photon_beams_along(benchmark::State& state) {
   PhotonMap map;
   map.photons = photons_of(static_cast<size_t>(state.range(0)), true);
-  map.index(kRadius);
+  map.index([](const HomogeneousMedium&) { return kRadius; });
   look_up(state, [&](const Ray& ray, const auto& visit) { map.beams_along(ray, visit); });
 }
 void photon_beams_whole(benchmark::State& state) {

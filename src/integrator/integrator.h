@@ -38,7 +38,9 @@ struct OrderLayer {
 struct PathSupport {
   bool specular_at_sensor = true;        ///< the vertex next to the sensor is specular
   bool specular_at_delta_light = false;  ///< a delta light shines on a specular vertex
-  bool beams = false;                    ///< the light of emitters that cannot be aimed at
+  /// Both, with a single vertex between them that is not specular: no line joins it with anything.
+  bool specular_at_both_ends = false;
+  bool beams = false;  ///< the light of emitters that cannot be aimed at
   bool glowing_media = true;
 };
 

@@ -33,6 +33,7 @@ class Mcrt : public SplattingIntegrator {
   PathSupport support() const override {
     return {.specular_at_sensor = true,
             .specular_at_delta_light = own_.gather.disks,
+            .specular_at_both_ends = own_.gather.disks,
             .beams = own_.gather.disks,
             .glowing_media = false};
   }

@@ -42,10 +42,14 @@ std::unique_ptr<SplattingIntegrator::Worker> Upbp::make_worker(const Scene& scen
 }
 
 /// (Not found, though: a delta light seen in nothing but specular vertices; without `bpt` and merges at surfaces, a
-/// delta light on surfaces alone.)
+/// delta light on surfaces alone; between specular vertices, what has no merge there. What the pilot will choose is not
+/// known before.)
 PathSupport Upbp::support() const {
+  auto merges = own_.techniques;
+  merges.reset(static_cast<size_t>(Technique::kJoin));
   return {.specular_at_sensor = true,
           .specular_at_delta_light = true,
+          .specular_at_both_ends = own_.techniques.none() || merges.any(),
           .beams = true,
           .glowing_media = own_.table.source == TableSettings::Source::kNone};
 }
@@ -66,8 +70,8 @@ void Upbp::prepare_workers(const Scene& scene) {
     table_->limit(path_);
     entering_.clear();
   }
-  first_radius_ = own_.radius ? *own_.radius : default_media_radius(scene, own_.pixels);
-  first_surface_radius_ = own_.surface_radius ? *own_.surface_radius : default_surface_radius(scene, own_.pixels);
+  first_radii_ = own_.radius ? KernelRadii::in_media(*own_.radius) : default_media_radii(scene, own_.pixels);
+  first_radii_.surface = own_.surface_radius ? *own_.surface_radius : default_surface_radius(scene, own_.pixels);
   leaves_.collisions = own_.uses(Technique::kPointPoint) || own_.uses(Technique::kPointBeam);
   leaves_.beams = own_.uses(Technique::kBeamPoint) || own_.uses(Technique::kBeamBeam);
   leaves_.inhomogeneous = leaves_.collisions || leaves_.beams;
@@ -87,15 +91,17 @@ void Upbp::set_radii(const Scene& scene, uint64_t index, size_t paths) {
   const auto radius = [&](Technique technique, float first, int dimensions) {
     return own_.uses(technique) ? first * radius_factor(index, own_.keep, dimensions) : 0;
   };
-  const KernelRadii radii{.surface = radius(Technique::kSurface, first_surface_radius_, 2),
-                          .point_point = radius(Technique::kPointPoint, first_radius_, 3),
-                          .point_beam = radius(Technique::kPointBeam, first_radius_, 2),
-                          .beam_point = radius(Technique::kBeamPoint, first_radius_, 2),
-                          .beam_beam = radius(Technique::kBeamBeam, first_radius_, 1)};
-  const float inhomogeneous = leaves_.inhomogeneous ? first_radius_ * radius_factor(index, own_.keep, 3) : 0;
+  const float inhomogeneous = leaves_.inhomogeneous ? radius_factor(index, own_.keep, 3) : 0;
+  const KernelRadii radii{.surface = radius(Technique::kSurface, first_radii_.surface, 2),
+                          .point_point = radius(Technique::kPointPoint, first_radii_.point_point, 3),
+                          .point_beam = radius(Technique::kPointBeam, first_radii_.point_beam, 2),
+                          .beam_point = radius(Technique::kBeamPoint, first_radii_.beam_point, 2),
+                          .beam_beam = radius(Technique::kBeamBeam, first_radii_.beam_beam, 1),
+                          .inhomogeneous = first_radii_.inhomogeneous * inhomogeneous,
+                          .dense_from = first_radii_.dense_from};
   const PhotonCounts counts{static_cast<double>(paths), static_cast<double>(beam_path_count(paths))};
-  weights_.emplace(own_.heuristic, merging_by(radii, counts, inhomogeneous), own_.uses(Technique::kJoin));
-  gatherer_.emplace(scene, path_, *weights_, radii, inhomogeneous, counts, map_);
+  weights_.emplace(own_.heuristic, merging_by(radii, counts), own_.uses(Technique::kJoin));
+  gatherer_.emplace(scene, path_, *weights_, radii, counts, map_);
 }
 
 void Upbp::weigh_paths(const Scene& scene) {
@@ -111,7 +117,7 @@ bool Upbp::prepare_round(const Scene& scene, uint64_t seed, uint64_t index, int,
   set_radii(scene, index, paths);
   map_.photons.clear();
   if (!finds_scale_ && (leaves_.surfaces || leaves_.inhomogeneous)) trace_photons(scene, seed, index, paths, stop);
-  map_.index(first_radius_);
+  map_.index([&](const HomogeneousMedium& medium) { return gatherer_->beam_radius(medium); });
   if (table_ && !finds_scale_) {
     const EnteringLightsPlan plan{scene, *sources_, path_, *table_, seed};
     SampleCounters counters;

@@ -82,7 +82,7 @@ class Upbp : public SplattingIntegrator {
   std::optional<size_t> most_paths_;
   std::optional<LightSources> sources_;
   std::unique_ptr<const RefractiveScattering> scattering_;
-  float first_radius_ = 0, first_surface_radius_ = 0;
+  KernelRadii first_radii_;
   uint64_t pilot_seed_ = 0;
   double bytes_per_path_ = 0;
   bool finds_scale_ = false;  ///< of splats, which needs no photons

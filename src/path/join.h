@@ -26,7 +26,10 @@ inline Passage look_along(const Traveller& traveller, const Vertex& vertex, cons
 inline Merges merges_at(const StrategyWeights& weights, const Medium& medium, float mu) {
   if (!weights.merges_in_media()) return {};
   const HomogeneousMedium* homogeneous = medium.as_homogeneous();
-  return weights.merges_at(homogeneous ? static_cast<double>(homogeneous->sigma_t().mean()) : 0, mu);
+  if (!homogeneous) return weights.merges_at(0, mu);
+  const Spectrum& sigma_t = homogeneous->sigma_t();
+  return weights.merges_at(static_cast<double>(sigma_t.mean()), mu,
+                           weights.kernel_scale(static_cast<double>(sigma_t.max())));
 }
 
 /// Sum of the powers of all merges at a vertex that is left in the direction `chosen` (unit).

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <limits>
 
 namespace turbid {
 
@@ -36,6 +37,8 @@ struct Merging {
   double beam_point = 0;     ///< flights of light around collisions (B-P2D), area
   double beam_beam = 0;      ///< flights around flights (B-B1D), length
   double inhomogeneous = 0;  ///< P-P3D where flights have no closed form, volume
+  /// Media with a larger extinction (1/length) have smaller kernels, in proportion to their mean free path.
+  double dense_from = std::numeric_limits<double>::infinity();
 
   bool in_media() const { return point_point + point_beam + beam_point + beam_beam + inhomogeneous > 0; }
 };
@@ -68,13 +71,18 @@ class StrategyWeights {
   /// At a vertex on a surface with a smooth lobe.
   double merged_at_surface() const { return surface_; }
   /// At a collision. `sigma_t`: a stand-in for its extinction that is the same everywhere in the medium, 1/length; 0
-  /// where flights have no closed form. `mu`: cosine of the deflection.
-  Merges merges_at(double sigma_t, float mu) const {
+  /// where flights have no closed form. `mu`: cosine of the deflection. `scale`: of the kernels' radii there.
+  Merges merges_at(double sigma_t, float mu, double scale = 1) const {
     if (!merges_in_media_) return {};
     if (!(sigma_t > 0)) return {power(merging_.inhomogeneous), 0, 0, 0};
     const double inverse = 1 / sigma_t, sine = std::sqrt(std::max(0.0, 1 - double{mu} * double{mu}));
-    return {power(merging_.point_point), power(merging_.point_beam * inverse), power(merging_.beam_point * inverse),
-            power(merging_.beam_beam * sine * inverse * inverse)};
+    const double area = scale * scale;
+    return {power(merging_.point_point * area * scale), power(merging_.point_beam * area * inverse),
+            power(merging_.beam_point * area * inverse), power(merging_.beam_beam * scale * sine * inverse * inverse)};
+  }
+  /// What multiplies the radii of kernels in a medium. `max_sigma_t`: the largest extinction of its channels, 1/length.
+  double kernel_scale(double max_sigma_t) const {
+    return max_sigma_t > merging_.dense_from ? merging_.dense_from / max_sigma_t : 1;
   }
 
   /// How a walk left a vertex.

@@ -2,7 +2,6 @@
 
 #include "core/warp.h"
 #include "gathering/sensor_gatherer.h"
-#include "photon/photon_gatherer.h"
 
 namespace turbid {
 namespace {
@@ -83,12 +82,12 @@ float empty_share(const Scene& scene, const std::vector<SeenSurface>& seen, floa
   return static_cast<float>(empty) / static_cast<float>(std::max<size_t>(seen.size(), 1) * kStrata * kStrata);
 }
 
-}  // namespace
-
 float pixel_radius(const Scene& scene, float pixels) {
   const GatherRadius radius = radius_in_pixels(scene, pixels);
   return radius.at_sensor + radius.per_length * viewing_distance(scene);
 }
+
+}  // namespace
 
 float default_surface_radius(const Scene& scene, float pixels) {
   constexpr float kMostEmpty = 0.005f, kStep = 0.8f;
@@ -99,12 +98,15 @@ float default_surface_radius(const Scene& scene, float pixels) {
   return radius;
 }
 
-float default_media_radius(const Scene& scene, float pixels) {
+KernelRadii default_media_radii(const Scene& scene, float pixels) {
   constexpr float kMostOfMeanFreePath = 0.015f;
-  float radius = pixel_radius(scene, pixels);
+  const float radius = pixel_radius(scene, pixels);
+  KernelRadii result = KernelRadii::in_media(radius);
+  result.dense_from = kMostOfMeanFreePath / radius;
   for (const Surroundings& around : scene.media())
-    if (around.mean_free_path > 0) radius = std::min(radius, kMostOfMeanFreePath * around.mean_free_path);
-  return radius;
+    if (around.mean_free_path > 0 && !around.medium->as_homogeneous())
+      result.inhomogeneous = std::min(result.inhomogeneous, kMostOfMeanFreePath * around.mean_free_path);
+  return result;
 }
 
 }  // namespace turbid

@@ -8,13 +8,14 @@ double ball(float radius) { return static_cast<double>(4.0f / 3 * kPi * sqr(radi
 
 }  // namespace
 
-Merging merging_by(const KernelRadii& radii, const PhotonCounts& counts, float inhomogeneous) {
+Merging merging_by(const KernelRadii& radii, const PhotonCounts& counts) {
   return {.surface = counts.paths * disk(radii.surface),
           .point_point = counts.paths * ball(radii.point_point),
           .point_beam = counts.paths * disk(radii.point_beam),
           .beam_point = counts.beam_paths * disk(radii.beam_point),
           .beam_beam = counts.beam_paths * 2 * static_cast<double>(radii.beam_beam),
-          .inhomogeneous = counts.paths * ball(inhomogeneous)};
+          .inhomogeneous = counts.paths * ball(radii.inhomogeneous),
+          .dense_from = static_cast<double>(radii.dense_from)};
 }
 
 void PhotonGatherer::at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const {
@@ -57,7 +58,8 @@ void PhotonGatherer::at_surface(const Vertex& vertex, ContributionSink& sink, Me
 /// P-P3D. Both fluxes hold the albedo of their collision: one is taken out.
 void PhotonGatherer::points_at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const {
   const Medium& medium = *vertex.medium;
-  const float radius = medium.as_homogeneous() ? radii_.point_point : inhomogeneous_;
+  const HomogeneousMedium* homogeneous = medium.as_homogeneous();
+  const float radius = homogeneous ? radius_in(*homogeneous, radii_.point_point) : radii_.inhomogeneous;
   if (!(radius > 0)) return;
   const Spectrum sigma_s = medium.sigma_s_at(vertex.position);
   Spectrum throughput;
@@ -87,7 +89,7 @@ void PhotonGatherer::points_at(const Vertex& vertex, ContributionSink& sink, Mer
 void PhotonGatherer::beams_at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const {
   const HomogeneousMedium* medium = vertex.medium->as_homogeneous();
   if (!medium) return;
-  const float radius = radii_.beam_point;
+  const float radius = radius_in(*medium, radii_.beam_point);
   const float scale = static_cast<float>(1 / (counts_.beam_paths * disk(radius)));
   work.found.clear();
   ++work.counters.beam_queries;

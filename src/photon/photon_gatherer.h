@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "path/contribution.h"
 #include "photon/beam_crossing.h"
 #include "photon/photon_map.h"
@@ -10,9 +12,15 @@ namespace turbid {
 /// count on the other, nor around an edge.
 inline constexpr float kSameSurface = 0.5f;
 
-/// Radii of the kernels, scene units; constant in space, so that both walks of a path know the measures in its weights.
+/// Radii of the kernels, scene units; constant in each medium, so that both walks of a path know the measures in its
+/// weights.
 struct KernelRadii {
   float surface = 0, point_point = 0, point_beam = 0, beam_point = 0, beam_beam = 0;
+  float inhomogeneous = 0;  ///< of balls in media where flights have no closed form, used whenever anything is merged
+  float dense_from = std::numeric_limits<float>::infinity();  ///< Merging::dense_from
+
+  /// The same for all kernels in media.
+  static KernelRadii in_media(float radius) { return {0, radius, radius, radius, radius, radius}; }
 };
 
 /// How many light paths left points, and how many of them beams.
@@ -20,9 +28,8 @@ struct PhotonCounts {
   double paths = 0, beam_paths = 0;
 };
 
-/// Number of paths times measure of the kernels (Merging) of the kinds whose radius is not 0. Where flights have no
-/// closed form collisions are merged whenever anything is, with radius `inhomogeneous`.
-Merging merging_by(const KernelRadii& radii, const PhotonCounts& counts, float inhomogeneous);
+/// Number of paths times measure of the kernels (Merging) of the kinds whose radius is not 0.
+Merging merging_by(const KernelRadii& radii, const PhotonCounts& counts);
 
 /// How much work merging was.
 struct MergeCounters {
@@ -57,14 +64,8 @@ struct MergeWork {
 class PhotonGatherer {
  public:
   PhotonGatherer(const Scene& scene, const PathSettings& path, const StrategyWeights& weights, const KernelRadii& radii,
-                 float inhomogeneous, const PhotonCounts& counts, const PhotonMap& map)
-      : scene_(scene),
-        path_(path),
-        weights_(weights),
-        radii_(radii),
-        inhomogeneous_(inhomogeneous),
-        counts_(counts),
-        map_(map) {}
+                 const PhotonCounts& counts, const PhotonMap& map)
+      : scene_(scene), path_(path), weights_(weights), radii_(radii), counts_(counts), map_(map) {}
 
   /// At a vertex of the walk that knows its StrategySums: P-P3D, B-P2D, photons on surfaces.
   void at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
@@ -80,6 +81,10 @@ class PhotonGatherer {
   template <class SumsAt>
   void along(const Flight& flight, const SumsAt& sums_at, ContributionSink& sink, MergeWork& work) const;
 
+  /// How far from a beam in the medium it is merged.
+  float beam_radius(const HomogeneousMedium& medium) const {
+    return radius_in(medium, std::max(radii_.beam_point, radii_.beam_beam));
+  }
   bool gathers_along_flights() const { return radii_.point_beam > 0 || radii_.beam_beam > 0; }
 
  private:
@@ -87,6 +92,10 @@ class PhotonGatherer {
   /// counts on one side only.
   bool counts(int edges, int order, bool bent) const {
     return edges <= path_.max_depth && path_.order_counts(order) && !counted_elsewhere(bent, order);
+  }
+  /// `radius` in thin media, in this one.
+  float radius_in(const HomogeneousMedium& medium, float radius) const {
+    return radius * static_cast<float>(weights_.kernel_scale(static_cast<double>(medium.sigma_t().max())));
   }
   void at_surface(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
   void points_at(const Vertex& vertex, ContributionSink& sink, MergeWork& work) const;
@@ -96,7 +105,6 @@ class PhotonGatherer {
   const PathSettings& path_;
   const StrategyWeights& weights_;
   KernelRadii radii_;
-  float inhomogeneous_;
   PhotonCounts counts_;
   const PhotonMap& map_;
 };
@@ -114,15 +122,16 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
   };
 
   if (radii_.point_beam > 0 && !map_.collisions().empty()) {
-    const float scale = static_cast<float>(1 / (counts_.paths * static_cast<double>(kPi * sqr(radii_.point_beam))));
+    const float radius = radius_in(medium, radii_.point_beam);
+    const float scale = static_cast<float>(1 / (counts_.paths * static_cast<double>(kPi * sqr(radius))));
     ++work.counters.point_queries;
-    map_.collisions().along(ray, radii_.point_beam, [&](uint32_t number) {
+    map_.collisions().along(ray, radius, [&](uint32_t number) {
       ++work.counters.point_tests;
       const PhotonPoint& photon = map_.photons.collisions[number];
       const int order = flight.order + photon.order;
       if (photon.medium != &medium || !counts(sensor_depth + photon.depth, order, photon.bent)) return;
       if (!path_.visit_counts(&medium, flight.visit_order + photon.visit_order)) return;
-      const float t = nearest_within(ray, photon.position, radii_.point_beam);
+      const float t = nearest_within(ray, photon.position, radius);
       if (!(t > 0)) return;
       const float mu = -dot(photon.direction, ray.direction);
       const float f = medium.phase().eval(mu);
@@ -135,7 +144,8 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
   }
 
   if (radii_.beam_beam > 0) {
-    const float scale = static_cast<float>(1 / (counts_.beam_paths * 2 * static_cast<double>(radii_.beam_beam)));
+    const float radius = radius_in(medium, radii_.beam_beam);
+    const float scale = static_cast<float>(1 / (counts_.beam_paths * 2 * static_cast<double>(radius)));
     work.found.clear();
     ++work.counters.beam_queries;
     map_.beams_along(ray, [&](uint32_t number, float from, float to) {
@@ -144,7 +154,7 @@ void PhotonGatherer::along(const Flight& flight, const SumsAt& sums_at, Contribu
       const int order = flight.order + beam.order + 1;
       if (beam.medium != &medium || !counts(sensor_depth + beam.depth + 1, order, beam.bent)) return;
       if (!path_.visit_counts(&medium, flight.visit_order + beam.visit_order + 1)) return;
-      const auto crossing = find_crossing(ray, beam.ray(), radii_.beam_beam);
+      const auto crossing = find_crossing(ray, beam.ray(), radius);
       if (crossing && crossing->on_second >= from && crossing->on_second < to)
         work.found.push_back({number, *crossing});
     });

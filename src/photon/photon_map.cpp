@@ -37,7 +37,7 @@ size_t Photons::bytes() const {
          beams.size() * (sizeof(PhotonBeam) + kBeamIndex) + emissions.size() * sizeof(Emission);
 }
 
-void PhotonMap::index(float beam_radius) {
+void PhotonMap::index(const std::function<float(const HomogeneousMedium&)>& beam_radius) {
   build(collisions_, photons.collisions);
   build(surfaces_, photons.surfaces);
   double whole = 0;
@@ -51,10 +51,12 @@ void PhotonMap::index(float beam_radius) {
   }
   beams_.build(pieces_.size(), [&](size_t i) {
     const Piece& piece = pieces_[i];
-    const Ray& ray = photons.beams[piece.beam].ray();
+    const PhotonBeam& beam = photons.beams[piece.beam];
+    const Ray& ray = beam.ray();
     Bounds3 box(ray.at(piece.from), ray.at(piece.from));
     box.extendBy(ray.at(piece.to));
-    return Bounds3(box.min - Vec3(beam_radius), box.max + Vec3(beam_radius));
+    const Vec3 margin(beam_radius(*beam.medium));
+    return Bounds3(box.min - margin, box.max + margin);
   });
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "gathering/volume_index.h"
 #include "photon/photon.h"
 #include "photon/point_tree.h"
@@ -21,8 +23,8 @@ struct Photons {
 class PhotonMap {
  public:
   Photons photons;
-  /// Once all photons are there; `beam_radius`: how far from a beam it is to be found.
-  void index(float beam_radius);
+  /// Once all photons are there; `beam_radius`: how far from a beam in that medium it is to be found.
+  void index(const std::function<float(const HomogeneousMedium&)>& beam_radius);
 
   const PointTree& collisions() const { return collisions_; }
   const PointTree& surfaces() const { return surfaces_; }

@@ -56,6 +56,7 @@ PathSupport support_in(const Scene& scene, const PathSupport& support) {
   const PathSupport asked = asked_for(scene);
   return {.specular_at_sensor = support.specular_at_sensor,
           .specular_at_delta_light = support.specular_at_delta_light || !asked.specular_at_delta_light,
+          .specular_at_both_ends = support.specular_at_both_ends || !asked.specular_at_both_ends,
           .beams = support.beams || !asked.beams,
           .glowing_media = support.glowing_media || !asked.glowing_media};
 }
@@ -73,11 +74,14 @@ std::string difference(const PathSupport& a, const PathSupport& b) {
 
 }  // namespace
 
+IntegratorSetup make_named(const std::string& words, const LoadedScene& loaded) {
+  return make_integrator(replacement(loaded.integrator, words).description, loaded.document.get());
+}
+
 Film render_samples(const std::string& xml, const std::string& integrator, uint32_t count, int threads,
                     uint32_t first) {
   LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
-  const IntegratorSetup setup =
-      make_integrator(replacement(loaded.integrator, integrator).description, loaded.document.get());
+  const IntegratorSetup setup = make_named(integrator, loaded);
   const Scene scene(std::move(loaded.parts));
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<size_t>(threads));
   tbb::task_arena arena(threads);
@@ -98,8 +102,7 @@ void expect_same(const Film& a, const Film& b) {
 
 Observation observe(const std::string& xml, const Contestant& contestant, int block) {
   LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
-  const auto replaced = replacement(loaded.integrator, contestant.integrator);
-  const IntegratorSetup setup = make_integrator(replaced.description, loaded.document.get());
+  const IntegratorSetup setup = make_named(contestant.integrator, loaded);
   return observe(Scene(std::move(loaded.parts)), *setup.integrator, contestant, block);
 }
 
@@ -145,7 +148,9 @@ Agreement compare(const Observation& first, const Observation& second) {
   result.cannot = difference(first.support, second.support);
   if (!result.cannot.empty()) return result;
   std::vector<bool> skip(first.specular_blocks.size());
-  if (first.support.specular_at_sensor != second.support.specular_at_sensor) skip = first.specular_blocks;
+  if (first.support.specular_at_sensor != second.support.specular_at_sensor ||
+      first.support.specular_at_both_ends != second.support.specular_at_both_ends)
+    skip = first.specular_blocks;
   result.blocks = static_cast<size_t>(std::count(skip.begin(), skip.end(), false));
   if (result.blocks == 0) {
     result.cannot = "cannot sample what the sensor sees in specular surfaces";
@@ -176,21 +181,31 @@ Agreement compare(const Observation& first, const Observation& second) {
   return result;
 }
 
-double Agreement::smallest_p() const {
+double Agreement::smallest_p_of_means() const {
   double result = 1;
-  for (size_t k = 0; k < verdicts.size(); ++k)
-    if (verdicts[k])
-      result = std::min({result, verdicts[k]->smallest_p,
-                         std::erfc(std::abs(mean_ratio[k] - 1) / ratio_error[k] / std::numbers::sqrt2)});
+  for (size_t k = 0; k < verdicts.size(); ++k) {
+    if (!verdicts[k]) continue;
+    // No error: one of the two saw nothing.
+    const double p = ratio_error[k] > 0 ? std::erfc(std::abs(mean_ratio[k] - 1) / ratio_error[k] / std::numbers::sqrt2)
+                                        : (mean_ratio[k] == 1 ? 1 : 0);
+    result = std::min(result, p);
+  }
   return result;
 }
 
-bool Agreement::accepted(size_t comparisons) const {
+double Agreement::smallest_p() const {
+  double result = smallest_p_of_means();
+  for (const auto& verdict : verdicts)
+    if (verdict) result = std::min(result, verdict->smallest_p);
+  return result;
+}
+
+bool Agreement::accepted(double p, bool with_blocks, size_t comparisons) const {
   size_t tests = 0;
   for (const auto& verdict : verdicts)
-    if (verdict) tests += verdict->tests + 1;
+    if (verdict) tests += (with_blocks ? verdict->tests : 0) + 1;
   const auto all = static_cast<double>(std::max<size_t>(tests * comparisons, 1));
-  return smallest_p() > -std::expm1(std::log1p(-ZTestResult::kSignificance) / all);
+  return p > -std::expm1(std::log1p(-ZTestResult::kSignificance) / all);
 }
 
 std::string Agreement::report() const {

@@ -20,6 +20,8 @@ struct Contestant {
   uint64_t seed = 1;
 };
 
+/// The integrator that `words` name (as on the command line), in the place of the scene's.
+IntegratorSetup make_named(const std::string& words, const LoadedScene& loaded);
 /// The samples [first, first + count) of every pixel by `integrator` (as on the command line), with so many threads.
 Film render_samples(const std::string& xml, const std::string& integrator, uint32_t count, int threads = 2,
                     uint32_t first = 0);
@@ -51,10 +53,16 @@ struct Agreement {
 
   /// No test rejects, all of them together at level 0.01 (Sidak's correction): those of the blocks, those of the means,
   /// and those of `comparisons - 1` other comparisons like this one.
-  bool accepted(size_t comparisons = 1) const;
-  /// The smallest p-value of any test.
+  bool accepted(size_t comparisons = 1) const { return accepted(smallest_p(), true, comparisons); }
+  /// The same without those of the blocks, where light is too rare in single blocks.
+  bool means_accepted(size_t comparisons = 1) const { return accepted(smallest_p_of_means(), false, comparisons); }
+  /// The smallest p-value of any test; of the means.
   double smallest_p() const;
+  double smallest_p_of_means() const;
   std::string report() const;
+
+ private:
+  bool accepted(double p, bool with_blocks, size_t comparisons) const;
 };
 Agreement compare(const Observation& first, const Observation& second);
 

@@ -122,7 +122,7 @@ void expect_slab_ratio(double radius, uint32_t samples, int light_paths) {
 TEST(PhotonBias, IsALossAtBoundaries) {
   EXPECT_NEAR((1 - slab_ratio(0.02)) / (1 - slab_ratio(0.01)), 2, 0.05) << "in proportion to the radius";
   EXPECT_LT(slab_ratio(0.5), 0.87);
-  // The largest radius by default, see default_media_radius.
+  // The largest radius by default, see default_media_radii.
   EXPECT_GT(slab_ratio(0.015), 0.99);
   expect_slab_ratio(0.5, 16, 64);
 }

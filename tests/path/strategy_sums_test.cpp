@@ -200,6 +200,18 @@ TEST(StrategySums, MergesByKindOfMedium) {
   EXPECT_DOUBLE_EQ(inhomogeneous.sum(), 6);
 }
 
+/// In dense media kernels shrink with the mean free path, each in its own dimension.
+TEST(StrategySums, MergesOfSmallerKernels) {
+  const StrategyWeights weights(StrategyWeights::Heuristic::kBalance, {1, 2, 3, 4, 5, 6, 10});
+  EXPECT_DOUBLE_EQ(weights.kernel_scale(10), 1);
+  EXPECT_DOUBLE_EQ(weights.kernel_scale(40), 0.25);
+  const Merges whole = weights.merges_at(40, 0.6f), part = weights.merges_at(40, 0.6f, 0.25);
+  EXPECT_DOUBLE_EQ(part.point_point, whole.point_point / 64);
+  EXPECT_DOUBLE_EQ(part.point_beam, whole.point_beam / 16);
+  EXPECT_DOUBLE_EQ(part.beam_point, whole.beam_point / 16);
+  EXPECT_DOUBLE_EQ(part.beam_beam, whole.beam_beam / 4);
+}
+
 TEST(StrategySums, TwinNoticesAWrongDensity) {
   Rng rng(4);
   const StrategyWeights weights(StrategyWeights::Heuristic::kPower);

@@ -38,6 +38,19 @@ TEST(DefaultRadii, OnSurfacesThatFillThePictureAreByPixels) {
   EXPECT_NEAR(default_surface_radius(square(4), kPixels), kPixels * 2 * kHalfPicture / kWidth, 1e-5);
 }
 
+/// By pixels in thin media; in dense ones in proportion to the mean free path. Where flights have no closed form the
+/// densest place decides.
+TEST(DefaultRadii, InDenseMediaFollowTheMeanFreePath) {
+  const KernelRadii radii = default_media_radii(square(4), kPixels);
+  const float by_pixels = kPixels * 2 * static_cast<float>(kHalfPicture) / kWidth;
+  EXPECT_NEAR(radii.point_beam, by_pixels, 1e-5);
+  EXPECT_NEAR(radii.inhomogeneous, by_pixels, 1e-5);
+  const PhotonCounts one{1, 1};
+  const StrategyWeights weights(StrategyWeights::Heuristic::kBalance, merging_by(radii, one));
+  EXPECT_NEAR(static_cast<double>(radii.beam_beam) * weights.kernel_scale(30), 0.015 / 30, 1e-6);
+  EXPECT_EQ(weights.kernel_scale(0.01), 1);
+}
+
 /// Of disks around the points of a square of side a, 4 x 2 R / (3 pi a) lie outside: 2 R / (3 pi) is the mean of the
 /// positive part of a coordinate over a disk.
 TEST(DefaultRadii, LoseHalfAPercentAtEdges) {
