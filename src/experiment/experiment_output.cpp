@@ -10,6 +10,7 @@
 #include "experiment/program_figure.h"
 #include "experiment/results.h"
 #include "experiment/results_page.h"
+#include "experiment/run_store.h"
 #include "image/atomic_file.h"
 
 namespace turbid {
@@ -43,8 +44,14 @@ std::vector<std::string> make_experiment(const Experiment& experiment, const Exp
   about["time scale"] = fmt::format("{:g}", options.time_scale);
   Writer writer(options.folder);
   if (experiment.program) {
-    options.tell(experiment.program->name + " ...");
-    const std::string printed = run_program_figure(experiment, options.time_scale);
+    const RunStore store(options.folder);
+    const uint64_t key = program_fingerprint(experiment, options.time_scale);
+    std::string printed = store.find_text("figure", key).value_or("");
+    if (printed.empty()) {
+      options.tell(experiment.program->name + " ...");
+      printed = run_program_figure(experiment, options.time_scale);
+      store.keep_text("figure", key, printed);
+    }
     about["program"] = program_line(experiment, options.time_scale);
     about["finished"] = describe_now();
     writer.write("output.md", printed);

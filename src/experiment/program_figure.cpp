@@ -13,8 +13,10 @@
 
 #include "core/cache_folder.h"
 #include "core/error.h"
+#include "core/hash.h"
 #include "experiment/markdown_tables.h"
 #include "experiment/reference.h"
+#include "image/atomic_file.h"
 
 namespace turbid {
 namespace {
@@ -75,6 +77,10 @@ const std::vector<std::string>& arguments_of(const ProgramSettings& program, dou
 
 std::string program_line(const Experiment& experiment, double time_scale) {
   return fmt::format("{} {}", experiment.program->name, fmt::join(arguments_of(*experiment.program, time_scale), " "));
+}
+
+uint64_t program_fingerprint(const Experiment& experiment, double time_scale) {
+  return hash_bytes(read_file(program_path(experiment.program->name)), hash_bytes(program_line(experiment, time_scale)));
 }
 
 std::string run_program_figure(const Experiment& experiment, double time_scale) {

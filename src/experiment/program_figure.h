@@ -12,6 +12,9 @@ namespace turbid {
 /// when it is not built, Error when it fails, Interrupted.
 std::string run_program_figure(const Experiment& experiment, double time_scale);
 
+/// Names what the figure depends on: the program's contents and its arguments. Throws as run_program_figure.
+uint64_t program_fingerprint(const Experiment& experiment, double time_scale);
+
 /// The program and its arguments, as run.
 std::string program_line(const Experiment& experiment, double time_scale);
 

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "experiment/reference.h"
+#include "experiment/run_store.h"
 #include "testing/temporary_folder.h"
 
 namespace turbid {
@@ -50,6 +51,24 @@ TEST_F(ProgramFigure, IsWhatItPrints) {
   EXPECT_EQ(std::get<std::string>(report.tables[0].rows[0][1]), "two words");
   EXPECT_EQ(run_program_figure(experiment_, 0.5), "| a | 1 |\n| --- | --- |\n| 1 | short |\n");
   EXPECT_EQ(program_line(experiment_, 0.5), "turbid_figure short");
+}
+
+/// What was printed is found again, unless the program or its arguments have changed.
+TEST_F(ProgramFigure, IsMadeOnce) {
+  EXPECT_THROW(program_fingerprint(experiment_, 1), UsageError);
+  write_program("echo one\n");
+  const uint64_t key = program_fingerprint(experiment_, 1);
+  EXPECT_EQ(program_fingerprint(experiment_, 1), key);
+  EXPECT_NE(program_fingerprint(experiment_, 0.5), key);
+  const RunStore store(folder_.file("results"));
+  EXPECT_FALSE(store.find_text("figure", key));
+  store.keep_text("figure", key, "| \"a\" |\n");
+  EXPECT_EQ(store.find_text("figure", key), "| \"a\" |\n");
+  EXPECT_FALSE(store.find("figure", key)) << "no curve";
+  write_program("echo two\n");
+  EXPECT_FALSE(store.find_text("figure", program_fingerprint(experiment_, 1)));
+  std::ofstream(folder_.file("results/runs/figure.json")) << "{";
+  EXPECT_FALSE(store.find_text("figure", key)) << "damaged";
 }
 
 TEST_F(ProgramFigure, RunsAboveTheFolderOfTheExperiments) {
