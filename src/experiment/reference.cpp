@@ -10,6 +10,7 @@
 #include "core/version.h"
 #include "image/atomic_file.h"
 #include "image/film_image.h"
+#include "image/image_file.h"
 #include "render/checkpoint.h"
 #include "render/render_job.h"
 #include "render/threads.h"
@@ -68,6 +69,18 @@ Half find_half(const Scene& scene, Integrator& integrator, const RenderOptions& 
   return {std::move(result.film), result.seconds, true};
 }
 
+/// Which turbid made the picture; empty where it does not say.
+std::string version_in(const std::string& picture) {
+  if (!fs::exists(picture)) return {};
+  try {
+    const Image image = read_exr(picture);
+    const auto found = image.metadata.find("version");
+    return found == image.metadata.end() ? "" : found->second;
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
 /// Mean over pixels and channels of the variance between samples, over their number.
 double variance_of_mean(const Film& film) {
   const auto n = static_cast<double>(film.samples());
@@ -122,6 +135,7 @@ Reference find_reference(const StagedScene& staged, const ReferenceRequest& requ
   make_folder(request.folder);
   const std::string key = fmt::format("{}-{:016x}", fs::path(staged.choice().file).stem().string(), hash);
 
+  const auto picture_path = [&](int half) { return fmt::format("{}/{}-{}.exr", request.folder, key, half); };
   Half halves[2];
   for (int i = 0; i < 2; ++i) {
     RenderOptions options;
@@ -131,7 +145,7 @@ Reference find_reference(const StagedScene& staged, const ReferenceRequest& requ
     options.quiet = true;
     options.growing_passes = true;
     options.save_seconds = 15;
-    options.output.path = fmt::format("{}/{}-{}.exr", request.folder, key, i + 1);
+    options.output.path = picture_path(i + 1);
     options.output.png = false;
     options.output.metadata = {{"scene", staged.choice().name()},
                                {"integrator", staged.describe()},
@@ -143,6 +157,7 @@ Reference find_reference(const StagedScene& staged, const ReferenceRequest& requ
   }
   Reference reference = reference_of(halves[0].film, halves[1].film);
   reference.key = key;
+  reference.version = version_in(picture_path(2));
   reference.wall = halves[0].wall + halves[1].wall;
   reference.is_new = halves[0].is_new || halves[1].is_new;
   return reference;

@@ -24,6 +24,7 @@ struct Reference {
   uint64_t samples = 0;  ///< per pixel
   double wall = 0;       ///< seconds
   std::string key;       ///< names all that it depends on
+  std::string version;   ///< turbid's, with its commit, when it was last rendered
   bool is_new = false;   ///< some of it was rendered now
 };
 

@@ -58,6 +58,7 @@ Json to_json(const SceneResult& scene, EqualBy rule) {
             {"samples", r.samples},
             {"wall_seconds", r.wall},
             {"key", r.key},
+            {"version", r.version},
             {"mean", r.error.mean},
             {"peak", r.error.peak},
             {"mse", to_json(r.error.mse)},

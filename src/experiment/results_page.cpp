@@ -131,14 +131,14 @@ ReportTable published_of(const ExperimentResult& result) {
 ReportTable references_of(const ExperimentResult& result) {
   ReportTable table{.title = "References: their own error is subtracted from squared errors",
                     .columns = {"scene", "integrator", "samples", "wall time, s", "own RMSE", "own RMSE / mean",
-                                "own RMSE by the variance of samples"},
+                                "own RMSE by the variance of samples", "rendered by"},
                     .rows = {}};
   for (const SceneResult& scene : result.scenes) {
     const Reference& r = scene.reference;
     const double own = std::sqrt(r.error.mse.value);
     table.rows.push_back({scene.scene.name, scene.scene.reference.integrator, static_cast<double>(r.samples), r.wall,
                           with_error({own, r.error.mse.error / (2 * own)}), own / r.error.mean,
-                          std::sqrt(r.error.by_variance)});
+                          std::sqrt(r.error.by_variance), r.version});
   }
   return table;
 }

@@ -53,6 +53,7 @@ TEST_F(ExperimentRun, MeasuresAllMethods) {
   ASSERT_EQ(result.scenes.size(), 1u);
   const SceneResult& scene = result.scenes[0];
   EXPECT_GT(scene.reference.samples, 64u);
+  EXPECT_TRUE(scene.reference.version.starts_with("turbid ")) << scene.reference.version;
   ASSERT_EQ(scene.methods.size(), 2u);
   for (const MethodResult& made : scene.methods) {
     ASSERT_EQ(made.runs.size(), 3u);
