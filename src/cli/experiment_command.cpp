@@ -10,6 +10,7 @@
 #include "core/version.h"
 #include "experiment/experiment_file.h"
 #include "experiment/experiment_output.h"
+#include "experiment/summary.h"
 #include "render/progress.h"
 #include "render/threads.h"
 
@@ -75,6 +76,7 @@ int run_experiments(const ExperimentWords& words, const CommandLine& line) {
         make_experiment(experiment, options,
                         {{"command", line}, {"version", fmt::format("turbid {} {}", version(), version_commit())}});
     options.tell(fmt::format("wrote {}", fmt::join(files, ", ")));
+    write_gallery(words.folder);
   }
   return kExitDone;
 }
@@ -89,7 +91,8 @@ Command add_experiment_command(CLI::App& app) {
   command->add_flag("--list", words->list, "list them, with the time that they take");
   command->add_option("--time-scale", options.time_scale, "factor of all times (1)")->check(CLI::PositiveNumber);
   command->add_option("--size", options.size, "WIDTHxHEIGHT in the place of the sizes of the experiment");
-  command->add_option("-o,--output", words->folder, "FOLDER/NAME holds report.html, results.json ... (results)");
+  command->add_option("-o,--output", words->folder,
+                      "FOLDER/NAME holds report.html, results.json ..., FOLDER/README.md pictures of all (results)");
   command->add_option("--cache", options.cache, "folder of the references (in the user's cache)");
   command->add_flag("--new-references", options.new_references, "render references again");
   command->add_option("--threads", words->threads, "number of threads (all cores)")->check(CLI::Range(1, 1024));

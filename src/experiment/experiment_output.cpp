@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/cache_folder.h"
@@ -11,10 +12,13 @@
 #include "experiment/results.h"
 #include "experiment/results_page.h"
 #include "experiment/run_store.h"
+#include "experiment/summary.h"
 #include "image/atomic_file.h"
 
 namespace turbid {
 namespace {
+
+namespace fs = std::filesystem;
 
 class Writer {
  public:
@@ -55,6 +59,7 @@ std::vector<std::string> make_experiment(const Experiment& experiment, const Exp
     about["program"] = program_line(experiment, options.time_scale);
     about["finished"] = describe_now();
     writer.write("output.md", printed);
+    writer.write("summary.md", summary_of(experiment, printed));
     writer.write("report.html", to_html(report_of(experiment, printed, about), viewer));
     return writer.files();
   }
@@ -62,6 +67,7 @@ std::vector<std::string> make_experiment(const Experiment& experiment, const Exp
   about["finished"] = describe_now();
   writer.write("results.json", to_json(result, about).dump(1) + "\n");
   writer.write("results.csv", to_csv(result));
+  writer.write("summary.md", write_summary(result, fs::path(options.folder).parent_path().string()));
   writer.write("report.html", to_html(report_of(result, about), viewer));
   return writer.files();
 }

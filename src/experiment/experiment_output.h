@@ -8,8 +8,8 @@
 namespace turbid {
 
 /// Runs an experiment, or its program, and writes results.json, results.csv and report.html (or, for a program, its
-/// text as output.md) into `options.folder` in one step each. `about`: command, version ...; the machine and the time
-/// are added. Returns the names of the files.
+/// text as output.md), and summary.md for a gallery, into `options.folder` (FOLDER/NAME) in one step each. `about`:
+/// command, version ...; the machine and the time are added. Returns the names of the files.
 std::vector<std::string> make_experiment(const Experiment& experiment, const ExperimentOptions& options,
                                          std::map<std::string, std::string> about);
 

@@ -80,7 +80,8 @@ std::string program_line(const Experiment& experiment, double time_scale) {
 }
 
 uint64_t program_fingerprint(const Experiment& experiment, double time_scale) {
-  return hash_bytes(read_file(program_path(experiment.program->name)), hash_bytes(program_line(experiment, time_scale)));
+  return hash_bytes(read_file(program_path(experiment.program->name)),
+                    hash_bytes(program_line(experiment, time_scale)));
 }
 
 std::string run_program_figure(const Experiment& experiment, double time_scale) {

@@ -168,7 +168,7 @@ class Upbp::PilotSink final : public ContributionSink {
 };
 
 Upbp::Observation Upbp::observe(const Scene& scene, uint64_t seed, const StopFlag& stop) {
-  constexpr size_t kPixels = 4096, kMostPaths = size_t{1} << 15;
+  constexpr size_t kPixels = 2048, kMostPaths = size_t{1} << 14;
   constexpr uint64_t kImages = 4;
   most_paths_ = kMostPaths;
   pilot_seed_ = seed;

@@ -12,6 +12,7 @@
 #include "experiment/contest.h"
 #include "experiment/results.h"
 #include "experiment/results_page.h"
+#include "experiment/summary.h"
 #include "image/atomic_file.h"
 #include "image/image_file.h"
 #include "small_experiment.h"
@@ -71,6 +72,28 @@ TEST_F(ExperimentRun, MeasuresAllMethods) {
     EXPECT_EQ(made.image.width(), 12);
   }
   EXPECT_EQ(ranked(scene, EqualBy::kSamples).front()->method.name, "paths");
+}
+
+/// Links in the gallery lead to pictures.
+TEST_F(ExperimentRun, MakesAGallery) {
+  const ExperimentResult result = run();
+  const std::string folder = folder_.file("gallery"), name = result.experiment.name;
+  fs::create_directories(folder + "/" + name);
+  fs::create_directories(folder + "/other");
+  write_file_atomically(folder + "/" + name + "/summary.md", write_summary(result, folder));
+  Experiment figure;
+  figure.name = "other";
+  figure.title = "A figure";
+  write_file_atomically(folder + "/other/summary.md", summary_of(figure, "| a |\n"));
+  const std::string text = read_file(write_gallery(folder));
+  EXPECT_NE(text.find("## A figure"), std::string::npos) << text;
+  EXPECT_NE(text.find("**fog**: paths: "), std::string::npos) << text;
+  size_t pictures = 0;
+  for (size_t at = 0; (at = text.find("](", at)) != std::string::npos; ++pictures) {
+    const size_t end = text.find(')', at += 2);
+    EXPECT_EQ(read_image(folder + "/" + text.substr(at, end - at)).width(), 12) << text.substr(at, end - at);
+  }
+  EXPECT_EQ(pictures, 3u) << "reference and two methods\n" << text;
 }
 
 TEST_F(ExperimentRun, FindsAgainWhatIsFinished) {
