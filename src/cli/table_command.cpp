@@ -106,7 +106,7 @@ void print_table(const PhaseFunction& phase, const std::vector<double>& albedos,
   for (const double albedo : albedos)
     for (const SourceKind kind : {SourceKind::kCollision, SourceKind::kRay}) {
       const LobeField a(*table, kind, albedo), b(*second, kind, albedo);
-      const LobeDifference difference = compare_lobes(a, b);
+      const LobeDifference difference = compare_lobes(a, b, a.grid());
       fmt::print("{:<12} {:<10} {:>8.4f} {:>9.2f} {:>9.2f}\n", "", kind == SourceKind::kRay ? "ray" : "collision",
                  albedo, 100 * difference.lobes / std::sqrt(2), 100 * difference.density / std::sqrt(2));
     }

@@ -17,6 +17,10 @@ std::vector<Parameter> table_parameters() {
                "method), table (looked up, as if the medium had no end), model (by random walks in a medium without "
                "end, to check the table)",
                {"path", "table", "model"}),
+          word("table_mode", "exact",
+               "how the table keeps its light: exact (spherical harmonics, one table for all albedos of a phase "
+               "function), seed (sampled lobes in a quadtree, one for each material, as published)",
+               {"exact", "seed"}),
           {"from_order",
            ParameterType::kInteger,
            "3",
@@ -32,6 +36,7 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
   TableSettings settings;
   const std::string source = properties.string("multiple_scattering");
   settings.from_order = static_cast<int>(properties.integer("from_order"));
+  if (properties.string("table_mode") == "seed") settings.mode = TableSettings::Mode::kSeed;
   if (source == "path") return settings;
   settings.source = source == "table" ? TableSettings::Source::kTable : TableSettings::Source::kModel;
   if (properties.string("single_scattering") == "refractive")
@@ -58,15 +63,22 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
       const bool walks = settings.source == TableSettings::Source::kModel;
       if (walks && medium->albedo().max() > static_cast<float>(kLargestAlbedo))
         throw std::invalid_argument(fmt::format("walks without end need an albedo of at most {}", kLargestAlbedo));
-      entries_.push_back(
-          {medium, walks ? nullptr
-                         : std::make_unique<const MultipleScattering>(
-                               *medium, *find_table(medium->phase(), settings.request), settings.from_order)});
+      entries_.push_back({medium, walks ? nullptr : find_scattering(*medium)});
     } catch (const std::invalid_argument& error) {
       log_warning(fmt::format("multiple scattering in a medium is left to the method: {}", error.what()));
     }
   }
   if (settings.images) boundaries_.emplace(scene, media());
+}
+
+std::unique_ptr<const MultipleScattering> TableLight::find_scattering(const HomogeneousMedium& medium) const {
+  if (settings_.mode == TableSettings::Mode::kExact)
+    return std::make_unique<const MultipleScattering>(medium, *find_table(medium.phase(), settings_.request),
+                                                      settings_.from_order);
+  QuadtreeSettings photons = settings_.photons;
+  photons.from_order = settings_.from_order;
+  return std::make_unique<const MultipleScattering>(
+      medium, quadtree_lights(find_quadtree(medium.phase(), medium.albedo(), photons, settings_.request.folder)));
 }
 
 std::vector<const Medium*> TableLight::media() const {

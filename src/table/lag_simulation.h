@@ -3,18 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "table/light_field.h"
 #include "table/phase_moments.h"
 #include "table/polar_grid.h"
 #include "table/sagittal_harmonics.h"
 
 namespace turbid {
-
-/// From where light sets out.
-enum class SourceKind {
-  kCollision,  ///< a photon collides at the origin, having travelled along +z
-  kRay         ///< a photon sets out from the origin along +z, unscattered, and collides where it may
-};
-inline constexpr size_t kSourceKinds = 2;
 
 /// What the tables are made of: cells and bands.
 struct TableShape {
