@@ -85,11 +85,16 @@ class PhaseSteps {
       values_[i] = phase.eval_angle(2 * std::asin((static_cast<float>(i) + 0.5f) / kSteps));
   }
   void towards_all(const LobeDirections& directions, const Vec3& from, float* values) const {
+    // In two loops, which the compiler makes fast: steps first, then look-ups.
+    alignas(64) std::array<int32_t, LobeDirections::kCount> steps;
+    const Vec3 d = from;
     for (size_t k = 0; k < LobeDirections::kCount; ++k) {
-      const float mu = directions.x[k] * from.x + directions.y[k] * from.y + directions.z[k] * from.z;
+      const float mu = directions.x[k] * d.x + directions.y[k] * d.y + directions.z[k] * d.z;
       const float half_sine = std::sqrt(std::max(0.5f - 0.5f * mu, 0.0f));
-      values[k] = values_[static_cast<size_t>(std::min(static_cast<int>(half_sine * kSteps), int{kSteps - 1}))];
+      steps[k] = static_cast<int32_t>(std::min(half_sine * kSteps, kSteps - 1.0f));
     }
+    const float* const table = values_.data();
+    for (size_t k = 0; k < LobeDirections::kCount; ++k) values[k] = table[steps[k]];
   }
 
  private:
@@ -185,7 +190,7 @@ std::array<PhotonLobes, kSourceKinds> simulate_photons(const PhaseFunction& phas
   const PhaseSteps steps(phase);
   const LobeDirections directions;
   // Rounds: some threads follow photons, then some put what they found into the cells that are theirs, in order.
-  constexpr uint64_t kBatches = 32, kPhotons = 64;
+  constexpr uint64_t kBatches = 32, kPhotons = 512;
   std::vector<Deposits> batches(kBatches);
   for (uint64_t round = 0; round < settings.photons; round += kBatches * kPhotons) {
     parallel_for(kBatches, [&](size_t b) {
@@ -195,13 +200,20 @@ std::array<PhotonLobes, kSourceKinds> simulate_photons(const PhaseFunction& phas
     parallel_for(kSourceKinds * kBlocks, [&](size_t task) {
       const size_t kind = task / kBlocks, block = task % kBlocks;
       alignas(64) std::array<float, LobeDirections::kCount> values;
+      // Cell by cell, so that each stays at hand.
+      std::vector<const Deposit*> sorted;
       for (const Deposits& batch : batches)
-        for (const Deposit& deposit : batch[kind][block]) {
-          steps.towards_all(directions, deposit.direction, values.data());
-          float* cell = lobes[kind].values.data() + static_cast<size_t>(deposit.leaf) * kCell;
-          for (int c = 0; c < kChannels; ++c, cell += LobeDirections::kCount)
-            for (size_t k = 0; k < LobeDirections::kCount; ++k) cell[k] += deposit.flux[c] * values[k];
+        for (const Deposit& deposit : batch[kind][block]) sorted.push_back(&deposit);
+      std::stable_sort(sorted.begin(), sorted.end(),
+                       [](const Deposit* a, const Deposit* b) { return a->leaf < b->leaf; });
+      for (const Deposit* deposit : sorted) {
+        steps.towards_all(directions, deposit->direction, values.data());
+        float* cell = lobes[kind].values.data() + static_cast<size_t>(deposit->leaf) * kCell;
+        for (int c = 0; c < kChannels; ++c, cell += LobeDirections::kCount) {
+          const float flux = deposit->flux[c];
+          for (size_t k = 0; k < LobeDirections::kCount; ++k) cell[k] += flux * values[k];
         }
+      }
     });
   }
   for (size_t k = 0; k < kSourceKinds; ++k) {

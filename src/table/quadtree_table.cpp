@@ -85,9 +85,9 @@ QuadtreeTable compress_lobes(const std::array<PhotonLobes, kSourceKinds>& lobes,
   return table;
 }
 
-QuadtreeTable build_quadtree_table(const PhaseFunction& phase, const Spectrum& albedo,
-                                   const QuadtreeSettings& settings) {
-  return compress_lobes(simulate_photons(phase, albedo, settings), phase, albedo, settings);
+QuadtreeTable build_quadtree_table(const PhaseFunction& phase, const Spectrum& albedo, const QuadtreeSettings& settings,
+                                   const Quadtree::Limits& limits) {
+  return compress_lobes(simulate_photons(phase, albedo, settings, limits), phase, albedo, settings);
 }
 
 QuadtreeField::QuadtreeField(std::shared_ptr<const QuadtreeTable> table, SourceKind kind, int channel)

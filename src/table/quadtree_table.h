@@ -32,8 +32,8 @@ struct QuadtreeTable {
 QuadtreeTable compress_lobes(const std::array<PhotonLobes, kSourceKinds>& lobes, const PhaseFunction& phase,
                              const Spectrum& albedo, const QuadtreeSettings& settings);
 /// Simulates and compresses.
-QuadtreeTable build_quadtree_table(const PhaseFunction& phase, const Spectrum& albedo,
-                                   const QuadtreeSettings& settings);
+QuadtreeTable build_quadtree_table(const PhaseFunction& phase, const Spectrum& albedo, const QuadtreeSettings& settings,
+                                   const Quadtree::Limits& limits = {});
 
 /// One channel's light about one kind of source; of kRay: one unit segment. Between the middles of cells as large as
 /// the one looked at, bilinear: four look-ups. Black outside of the quadtree. Immutable, shared between threads.

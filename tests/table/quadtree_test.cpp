@@ -146,6 +146,8 @@ TEST(SampledLobe, OfNothingIsNothing) {
 }
 
 const Spectrum kAlbedo(0.9f, 0.8f, 0.5f);
+/// For what does not depend on how fine cells are.
+constexpr Quadtree::Limits kCoarse{.leaves = 500};
 constexpr QuadtreeSettings kFew{.seed = 1, .photons = 40'000};
 
 /// Tests share them.
@@ -197,7 +199,7 @@ TEST(QuadtreeTable, MeetsTheExactOne) {
 TEST(QuadtreeTable, IsTheSameForAnyNumberOfThreads) {
   const auto build = [&](size_t threads, uint64_t seed) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return build_quadtree_table(HenyeyGreensteinPhase(0.5f), Spectrum(0.5f, 0.4f, 0), {seed, 3000});
+    return build_quadtree_table(HenyeyGreensteinPhase(0.5f), Spectrum(0.5f, 0.4f, 0), {seed, 3000}, kCoarse);
   };
   const QuadtreeTable one = build(1, 4), two = build(2, 4);
   EXPECT_EQ(one.kinds[0].lobes, two.kinds[0].lobes);
@@ -209,7 +211,7 @@ TEST(QuadtreeTable, FromHigherOrders) {
   const Spectrum albedo(0.7f);
   for (const int from : {4, 5}) {
     const auto table =
-        std::make_shared<QuadtreeTable>(build_quadtree_table(IsotropicPhase(), albedo, {1, 20'000, from}));
+        std::make_shared<QuadtreeTable>(build_quadtree_table(IsotropicPhase(), albedo, {1, 20'000, from}, kCoarse));
     const double energy =
         measure_moments(QuadtreeField(table, SourceKind::kCollision, 0), table->kind(SourceKind::kCollision).tree)
             .energy;
@@ -251,7 +253,8 @@ TEST(QuadtreeTable, StretchesOfAnyLength) {
 }
 
 TEST(QuadtreeFile, ComesBackAsItWasAndDamageIsFound) {
-  const QuadtreeTable table = build_quadtree_table(HenyeyGreensteinPhase(0.3f), Spectrum(0.4f, 0.3f, 0.2f), {3, 2000});
+  const QuadtreeTable table =
+      build_quadtree_table(HenyeyGreensteinPhase(0.3f), Spectrum(0.4f, 0.3f, 0.2f), {3, 2000}, kCoarse);
   const std::string bytes = encode_quadtree(table);
   EXPECT_EQ(encode_quadtree(table), bytes);
   const QuadtreeTable back = decode_quadtree(bytes, "memory");
