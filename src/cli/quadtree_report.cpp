@@ -31,7 +31,7 @@ void print_errors(const std::shared_ptr<const QuadtreeTable>& table, const std::
   std::optional<StretchField> stretch;
   if (segment) stretch.emplace(*ray, kUnitSegment);
   const LightField& exact = segment ? static_cast<const LightField&>(*stretch) : *collision;
-  const LobeDifference difference = compare_lobes(exact, field, collision->grid());
+  const LobeDifference difference = compare_within(exact, field, collision->grid());
   fmt::print(" {:>+9.2f} {:>9.2f} {:>9.2f} {:>9.2f}\n",
              100 * (energy / measure_moments(exact, field.tree()).energy - 1), 100 * difference.lobes,
              100 * difference.shape, 100 * difference.density);

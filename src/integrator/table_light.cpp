@@ -19,8 +19,10 @@ std::vector<Parameter> table_parameters() {
                {"path", "table", "model"}),
           word("table_mode", "exact",
                "how the table keeps its light: exact (spherical harmonics, one table for all albedos of a phase "
-               "function), seed (sampled lobes in a quadtree, one for each material, as published)",
-               {"exact", "seed"}),
+               "function), seed (sampled lobes in a quadtree, one for each material, as published), seed_computed (its "
+               "lobes "
+               "before they are sampled: 50 MB, built for each render)",
+               {"exact", "seed", "seed_computed"}),
           {"from_order",
            ParameterType::kInteger,
            "3",
@@ -36,7 +38,9 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
   TableSettings settings;
   const std::string source = properties.string("multiple_scattering");
   settings.from_order = static_cast<int>(properties.integer("from_order"));
-  if (properties.string("table_mode") == "seed") settings.mode = TableSettings::Mode::kSeed;
+  const std::string mode = properties.string("table_mode");
+  if (mode == "seed") settings.mode = TableSettings::Mode::kSeed;
+  if (mode == "seed_computed") settings.mode = TableSettings::Mode::kSeedComputed;
   if (source == "path") return settings;
   settings.source = source == "table" ? TableSettings::Source::kTable : TableSettings::Source::kModel;
   if (properties.string("single_scattering") == "refractive")
@@ -77,6 +81,12 @@ std::unique_ptr<const MultipleScattering> TableLight::find_scattering(const Homo
                                                       settings_.from_order);
   QuadtreeSettings photons = settings_.photons;
   photons.from_order = settings_.from_order;
+  if (settings_.mode == TableSettings::Mode::kSeedComputed) {
+    std::array<PhotonLobes, kSourceKinds> lobes = simulate_photons(medium.phase(), medium.albedo(), photons);
+    return std::make_unique<const MultipleScattering>(
+        medium, quadtree_lights({std::make_shared<const PhotonLobes>(std::move(lobes[0])),
+                                 std::make_shared<const PhotonLobes>(std::move(lobes[1]))}));
+  }
   return std::make_unique<const MultipleScattering>(
       medium, quadtree_lights(find_quadtree(medium.phase(), medium.albedo(), photons, settings_.request.folder)));
 }

@@ -21,8 +21,9 @@ struct TableSettings {
   };
   /// How tables keep their light.
   enum class Mode {
-    kExact,  ///< spherical harmonics, one table for all albedos of a phase function
-    kSeed    ///< as published by S1: sampled lobes in a quadtree, a table for each material
+    kExact,        ///< spherical harmonics, one table for all albedos of a phase function
+    kSeed,         ///< as published by S1: sampled lobes in a quadtree, a table for each material
+    kSeedComputed  ///< the same before lobes are compressed; not kept in files
   };
   Source source = Source::kNone;
   Mode mode = Mode::kExact;

@@ -46,7 +46,8 @@ FieldMoments exact_moments(double g, double albedo, SourceKind kind, int from_or
   return {whole, sum.along / whole, sum.square / whole};
 }
 
-LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid) {
+LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid,
+                             const std::function<bool(const Vec3&)>& counts) {
   const GaussLegendre polar(24);
   constexpr int kAzimuths = 12;
   double energy = 0, lobes = 0, densities = 0, shapes = 0;
@@ -56,6 +57,7 @@ LobeDifference compare_lobes(const LightField& a, const LightField& b, const Pol
       const double off = (i + j) % 2 == 0 ? 0.5 : 0.999;
       const double r = grid.radius(i + off), c = grid.cosine(j + off);
       const Vec3 x(Imath::V3d(r * std::sqrt(std::max(0.0, 1 - c * c)), 0, r * c)), axis(0, 0, 1);
+      if (counts && !counts(x)) continue;
       const Vec3 radial = normalize(x);
       const double density_a = static_cast<double>(a.density(x, axis)),
                    density_b = static_cast<double>(b.density(x, axis));

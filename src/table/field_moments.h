@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "table/lobe_field.h"
 
 namespace turbid {
@@ -25,6 +27,8 @@ struct LobeDifference {
   double density = 0;  ///< over all directions together
   double shape = 0;    ///< over directions, of lobes that are made equal in density
 };
-LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid);
+/// `counts`: of a place, whether it does.
+LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid,
+                             const std::function<bool(const Vec3&)>& counts = {});
 
 }  // namespace turbid

@@ -30,11 +30,10 @@ class Collector {
     counts_[cell] += 1;
     if (!inside) return;
     float* sums = moments_.data() + cell * cell_size_;
-    SagittalHarmonics::for_each_degree(
-        shape_.bands.degree, view.direction, [&](int, const SagittalHarmonics::Lanes& y) {
-          (SagittalHarmonics::load(sums) + y).copy_to(sums, std::experimental::element_aligned);
-          sums += SagittalHarmonics::kOrders;
-        });
+    SagittalHarmonics::for_each_degree(degree_, view.direction, [&](int, const SagittalHarmonics::Lanes& y) {
+      (SagittalHarmonics::load(sums) + y).copy_to(sums, std::experimental::element_aligned);
+      sums += SagittalHarmonics::kOrders;
+    });
   }
 
   void finish(size_t samples, std::vector<float>& moments, std::vector<float>& mean_order) {

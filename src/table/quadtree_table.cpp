@@ -170,6 +170,12 @@ FieldMoments measure_moments(const LightField& field, const Quadtree& tree) {
   return {sum.energy, sum.along / sum.energy, sum.square / sum.energy};
 }
 
+LobeDifference compare_within(const LightField& exact, const QuadtreeField& field, const PolarGrid& grid) {
+  return compare_lobes(exact, field, grid, [&](const Vec3& x) {
+    return field.tree().holds({std::hypot(x.x, x.y), x.z});
+  });
+}
+
 ChannelLights quadtree_lights(std::shared_ptr<const QuadtreeTable> table) {
   ChannelLights lights;
   for (int c = 0; c < kChannels; ++c)

@@ -66,6 +66,9 @@ class QuadtreeField final : public LightField {
 /// By quadrature over the places that a quadtree holds: of a field of its own, or what another one has there.
 FieldMoments measure_moments(const LightField& field, const Quadtree& tree);
 
+/// How far a quadtree's field is from another one, where the quadtree is.
+LobeDifference compare_within(const LightField& exact, const QuadtreeField& field, const PolarGrid& grid);
+
 /// Light of a medium by a quadtree (S1 eq. 6, 10). A stretch is cut into unit segments, each looked up from its own
 /// beginning; what remains at its end is taken as collisions along it.
 ChannelLights quadtree_lights(std::shared_ptr<const QuadtreeTable> table);

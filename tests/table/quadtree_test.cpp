@@ -180,10 +180,10 @@ TEST(QuadtreeTable, HasTheEnergyOfItsOrders) {
   }
 }
 
-/// How much of its light the exact table has elsewhere.
+/// How far its light is from the exact table's.
 LobeDifference against_exact(const std::shared_ptr<const QuadtreeTable>& table, int channel, float g, double albedo) {
   const LobeField exact(small_table(g), SourceKind::kCollision, albedo);
-  return compare_lobes(exact, QuadtreeField(table, SourceKind::kCollision, channel), exact.grid());
+  return compare_within(exact, QuadtreeField(table, SourceKind::kCollision, channel), exact.grid());
 }
 
 TEST(QuadtreeTable, MeetsTheExactOne) {
