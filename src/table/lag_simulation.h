@@ -29,7 +29,8 @@ struct OrderBin {
 
 struct SimulationSettings {
   uint64_t seed = 1;
-  size_t deposits = 4'000'000;  ///< per bin and source kind; half of it for orders above 256
+  size_t deposits =
+      4'000'000;  ///< per bin and source kind; orders to 6 get twice that, above 128 half, above 1024 a quarter
 };
 
 /// Bins of orders of scattering: 3 ... 10 alone, then two per octave up to 22,527.

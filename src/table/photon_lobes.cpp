@@ -113,7 +113,7 @@ constexpr size_t kBlocks = 16;
 using Deposits = std::array<std::array<std::vector<Deposit>, kBlocks>, kSourceKinds>;
 
 /// A collision of a high order is put in with this probability.
-float chance(int order) { return std::min(1.0f, 16.0f / static_cast<float>(order)); }
+float chance(int order) { return std::min(1.0f, 8.0f / static_cast<float>(order)); }
 
 void collect(const Photons& photons, const std::array<PhotonLobes, kSourceKinds>& lobes, uint64_t first, uint64_t last,
              Deposits& deposits) {
