@@ -6,6 +6,7 @@
 #include "medium/henyey_greenstein.h"
 #include "table/endless_walk.h"
 #include "table/multiple_scattering.h"
+#include "table/quadtree_table.h"
 
 /// What multiple scattering from tables costs, of one thread: the four queries of a grey medium, a channel at a time,
 /// and the walk that tables are made by.
@@ -85,6 +86,20 @@ void table_segment_segment(benchmark::State& state, float g) {
 }
 BENCHMARK_CAPTURE(table_segment_segment, g03, 0.3f);
 BENCHMARK_CAPTURE(table_segment_segment, g09, 0.9f);
+
+/// The same as published.
+void table_seed_segment_segment(benchmark::State& state) {
+  const HenyeyGreensteinPhase phase(0.9f);
+  const Spectrum sigma_t(1, 1.1f, 1.2f), sigma_s(0.98f, 1.05f, 0.9f);
+  const HomogeneousMedium medium(sigma_t, sigma_s, std::make_shared<HenyeyGreensteinPhase>(0.9f));
+  const MultipleScattering light(
+      medium,
+      quadtree_lights(std::make_shared<QuadtreeTable>(build_quadtree_table(phase, medium.albedo(), {1, 5000}))));
+  run(state, [&](const Vec3& x, const Vec3& w) {
+    return light.radiance(Stretch{{0, 0, 0}, {0, 0, 1}, 2}, Stretch{x, w, 10}, 0.5f);
+  });
+}
+BENCHMARK(table_seed_segment_segment);
 
 void table_walk(benchmark::State& state) {
   const HenyeyGreensteinPhase phase(0.9f);

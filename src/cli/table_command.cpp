@@ -2,17 +2,18 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "cli/command.h"
+#include "cli/quadtree_report.h"
 #include "core/error.h"
 #include "image/image_file.h"
 #include "medium/henyey_greenstein.h"
 #include "medium/homogeneous.h"
 #include "render/scene_choice.h"
+#include "render/statistics.h"
 #include "table/field_moments.h"
 #include "table/field_plot.h"
 #include "table/table_cache.h"
@@ -25,28 +26,24 @@ struct TableWords {
   std::optional<float> g;
   TableRequest request{{1, 0}, {}};
   std::vector<double> albedos;
-  std::string out;
+  std::string out, mode = "exact";
+  QuadtreeSettings photons;
   double reach = 8;
   bool ray = false, noise = false;
 };
-
-double processor_seconds() {
-  timespec time{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// The phase functions that tables are asked for, and the albedos that their media have.
 struct Subject {
   std::shared_ptr<const PhaseFunction> phase;
   std::vector<double> albedos;
+  std::optional<Spectrum> albedo;  ///< of a medium
 };
 
 std::vector<Subject> choose_subjects(const TableWords& words) {
   if (words.g) {
     if (!words.scene.file.empty()) throw UsageError("name a scene or a mean cosine, not both");
     try {
-      return {{std::make_shared<HenyeyGreensteinPhase>(*words.g), {0.5, 0.9, 0.99, 0.999}}};
+      return {{std::make_shared<HenyeyGreensteinPhase>(*words.g), {0.5, 0.9, 0.99, 0.999}, {}}};
     } catch (const std::invalid_argument& error) {
       throw UsageError(error.what());
     }
@@ -57,7 +54,7 @@ std::vector<Subject> choose_subjects(const TableWords& words) {
   for (const Surroundings& surroundings : scene->media()) {
     const HomogeneousMedium* medium = surroundings.medium->as_homogeneous();
     if (!medium) continue;
-    Subject subject{std::shared_ptr<const PhaseFunction>(scene, &medium->phase()), {}};
+    Subject subject{std::shared_ptr<const PhaseFunction>(scene, &medium->phase()), {}, medium->albedo()};
     for (int c = 0; c < kChannels; ++c)
       if (const auto albedo = static_cast<double>(medium->albedo()[c]);
           albedo > 0 && std::find(subject.albedos.begin(), subject.albedos.end(), albedo) == subject.albedos.end())
@@ -82,9 +79,9 @@ void print_errors(const ScatteringTable& table, double albedo, SourceKind kind) 
 void print_table(const PhaseFunction& phase, const std::vector<double>& albedos, const TableWords& words) {
   const std::string path = table_path(phase, words.request);
   const bool there = std::filesystem::exists(path);
-  const double before = processor_seconds();
+  const double before = process_cpu_seconds();
   const auto table = find_table(phase, words.request);
-  const double spent = processor_seconds() - before;
+  const double spent = process_cpu_seconds() - before;
   std::error_code ignored;
   const auto on_disk = std::filesystem::file_size(path, ignored);
   fmt::print("{:<12} {}\n", "table", path);
@@ -106,10 +103,22 @@ void print_table(const PhaseFunction& phase, const std::vector<double>& albedos,
   for (const double albedo : albedos)
     for (const SourceKind kind : {SourceKind::kCollision, SourceKind::kRay}) {
       const LobeField a(*table, kind, albedo), b(*second, kind, albedo);
-      const LobeDifference difference = compare_lobes(a, b);
+      const LobeDifference difference = compare_lobes(a, b, a.grid());
       fmt::print("{:<12} {:<10} {:>8.4f} {:>9.2f} {:>9.2f}\n", "", kind == SourceKind::kRay ? "ray" : "collision",
                  albedo, 100 * difference.lobes / std::sqrt(2), 100 * difference.density / std::sqrt(2));
     }
+}
+
+/// Mode `seed`: a table for each material; albedos that were named are grey ones.
+void print_quadtrees(const Subject& subject, const TableWords& words, bool plot) {
+  QuadtreeReport report{words.photons, words.request, plot ? words.out : "", words.reach};
+  report.settings.seed = words.request.settings.seed;
+  if (report.prefix.ends_with(".png")) report.prefix.resize(report.prefix.size() - 4);
+  if (subject.albedo && words.albedos.empty()) return print_quadtree(*subject.phase, *subject.albedo, report);
+  for (const double albedo : words.albedos.empty() ? subject.albedos : words.albedos) {
+    print_quadtree(*subject.phase, Spectrum(static_cast<float>(albedo)), report);
+    report.prefix.clear();
+  }
 }
 
 int run_table(const TableWords& words) {
@@ -126,6 +135,10 @@ int run_table(const TableWords& words) {
         albedo = kLargestAlbedo;
       }
     try {
+      if (words.mode == "seed") {
+        print_quadtrees(subject, words, &subject == &subjects.front());
+        continue;
+      }
       print_table(*subject.phase, albedos, words);
       if (words.out.empty() || &subject != &subjects.front()) continue;
       const LobeField field(*find_table(*subject.phase, words.request),
@@ -150,13 +163,20 @@ Command add_table_command(CLI::App& app) {
   command->add_option("--g", words->g, "the table of Henyey-Greenstein with this mean cosine instead");
   command->add_option("--albedo", words->albedos, "look at these albedos; left out: those of the scene's media")
       ->take_all();
+  command->add_option("--mode", words->mode, "exact, or seed: as published, a quadtree of sampled lobes per material")
+      ->check(CLI::IsMember({"exact", "seed"}));
+  command->add_option("--photons", words->photons.photons, "of mode seed")->check(CLI::PositiveNumber);
+  command->add_option("--from-order", words->photons.from_order, "of mode seed: collisions from which on light counts")
+      ->check(CLI::Range(3, 5));
   command->add_option("--samples", words->request.settings.deposits, "per bin of orders; 0: as the bands need");
   command->add_option("--seed", words->request.settings.seed, "of the simulation");
   command->add_option(
       "--folder", words->request.folder,
       "of the files; left out: $TURBID_TABLES, $XDG_CACHE_HOME/turbid/tables or ~/.cache/turbid/tables");
   command->add_flag("--noise", words->noise, "build a second table from another seed and say how far they are apart");
-  command->add_option("-o,--out", words->out, "plot density and lobes of the first medium and albedo there (PNG)");
+  command->add_option(
+      "-o,--out", words->out,
+      "plot density and lobes of the first medium and albedo there (PNG); mode seed: OUT-point-axes.png and more");
   command->add_flag("--ray", words->ray, "plot light that sets out along a ray, not light that collides at a point");
   command->add_option("--reach", words->reach, "of the plot to each side, in mean free paths")
       ->check(CLI::PositiveNumber);

@@ -17,6 +17,12 @@ std::vector<Parameter> table_parameters() {
                "method), table (looked up, as if the medium had no end), model (by random walks in a medium without "
                "end, to check the table)",
                {"path", "table", "model"}),
+          word("table_mode", "exact",
+               "how the table keeps its light: exact (spherical harmonics, one table for all albedos of a phase "
+               "function), seed (sampled lobes in a quadtree, one for each material, as published), seed_computed (its "
+               "lobes "
+               "before they are sampled: 50 MB, built for each render)",
+               {"exact", "seed", "seed_computed"}),
           {"from_order",
            ParameterType::kInteger,
            "3",
@@ -32,6 +38,9 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
   TableSettings settings;
   const std::string source = properties.string("multiple_scattering");
   settings.from_order = static_cast<int>(properties.integer("from_order"));
+  const std::string mode = properties.string("table_mode");
+  if (mode == "seed") settings.mode = TableSettings::Mode::kSeed;
+  if (mode == "seed_computed") settings.mode = TableSettings::Mode::kSeedComputed;
   if (source == "path") return settings;
   settings.source = source == "table" ? TableSettings::Source::kTable : TableSettings::Source::kModel;
   if (properties.string("single_scattering") == "refractive")
@@ -58,15 +67,28 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
       const bool walks = settings.source == TableSettings::Source::kModel;
       if (walks && medium->albedo().max() > static_cast<float>(kLargestAlbedo))
         throw std::invalid_argument(fmt::format("walks without end need an albedo of at most {}", kLargestAlbedo));
-      entries_.push_back(
-          {medium, walks ? nullptr
-                         : std::make_unique<const MultipleScattering>(
-                               *medium, *find_table(medium->phase(), settings.request), settings.from_order)});
+      entries_.push_back({medium, walks ? nullptr : find_scattering(*medium)});
     } catch (const std::invalid_argument& error) {
       log_warning(fmt::format("multiple scattering in a medium is left to the method: {}", error.what()));
     }
   }
   if (settings.images) boundaries_.emplace(scene, media());
+}
+
+std::unique_ptr<const MultipleScattering> TableLight::find_scattering(const HomogeneousMedium& medium) const {
+  if (settings_.mode == TableSettings::Mode::kExact)
+    return std::make_unique<const MultipleScattering>(medium, *find_table(medium.phase(), settings_.request),
+                                                      settings_.from_order);
+  QuadtreeSettings photons = settings_.photons;
+  photons.from_order = settings_.from_order;
+  if (settings_.mode == TableSettings::Mode::kSeedComputed) {
+    std::array<PhotonLobes, kSourceKinds> lobes = simulate_photons(medium.phase(), medium.albedo(), photons);
+    return std::make_unique<const MultipleScattering>(
+        medium, quadtree_lights({std::make_shared<const PhotonLobes>(std::move(lobes[0])),
+                                 std::make_shared<const PhotonLobes>(std::move(lobes[1]))}));
+  }
+  return std::make_unique<const MultipleScattering>(
+      medium, quadtree_lights(find_quadtree(medium.phase(), medium.albedo(), photons, settings_.request.folder)));
 }
 
 std::vector<const Medium*> TableLight::media() const {

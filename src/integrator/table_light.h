@@ -19,14 +19,22 @@ struct TableSettings {
     kTable,  ///< looked up in a table of the endless medium
     kModel   ///< the same by random walks in an endless medium: the reference of the table, noisy
   };
+  /// How tables keep their light.
+  enum class Mode {
+    kExact,        ///< spherical harmonics, one table for all albedos of a phase function
+    kSeed,         ///< as published by S1: sampled lobes in a quadtree, a table for each material
+    kSeedComputed  ///< the same before lobes are compressed; not kept in files
+  };
   Source source = Source::kNone;
-  int from_order = 3;   ///< collisions in one visit from which on the table has them: 3, 4 or 5
-  bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
-  TableRequest request;
+  Mode mode = Mode::kExact;
+  int from_order = 3;        ///< collisions in one visit from which on the table has them: 3, 4 or 5
+  bool images = false;       ///< corrected for boundaries (Boundaries); else the medium has no end
+  TableRequest request;      ///< its folder serves both modes
+  QuadtreeSettings photons;  ///< of kSeed; without from_order
 };
 
-/// The integrators' parameters `multiple_scattering`, `from_order` and `boundary`, and what they say. Refuses limits of
-/// depth and order that a sum over all orders cannot keep. Throws SceneError.
+/// The integrators' parameters `multiple_scattering`, `table_mode`, `from_order` and `boundary`, and what they say.
+/// Refuses limits of depth and order that a sum over all orders cannot keep. Throws SceneError.
 std::vector<Parameter> table_parameters();
 TableSettings table_settings(const Properties& properties, const PathSettings& path);
 
@@ -88,6 +96,8 @@ class TableLight {
     std::unique_ptr<const MultipleScattering> scattering;  ///< null for kModel
   };
   const Entry* find(const Medium* medium) const;
+  /// Of the table that the settings ask for.
+  std::unique_ptr<const MultipleScattering> find_scattering(const HomogeneousMedium& medium) const;
   /// The shortest paths of the sum, over the sensor's collision of that depth and order, count.
   bool counts(const EnteringLight& light, int depth, int order, const PathSettings& path) const {
     return depth <= path.max_depth - light.depth - settings_.from_order &&

@@ -46,19 +46,23 @@ FieldMoments exact_moments(double g, double albedo, SourceKind kind, int from_or
   return {whole, sum.along / whole, sum.square / whole};
 }
 
-LobeDifference compare_lobes(const LobeField& a, const LobeField& b) {
-  const PolarGrid& grid = a.grid();
+LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid,
+                             const std::function<bool(const Vec3&)>& counts) {
   const GaussLegendre polar(24);
   constexpr int kAzimuths = 12;
-  double energy = 0, lobes = 0, densities = 0;
+  double energy = 0, lobes = 0, densities = 0, shapes = 0;
   for (int i = 0; i < grid.radii(); ++i)
     for (int j = 0; j < grid.angles(); ++j) {
       // Alternately at the middle of a cell and at its corner.
       const double off = (i + j) % 2 == 0 ? 0.5 : 0.999;
       const double r = grid.radius(i + off), c = grid.cosine(j + off);
       const Vec3 x(Imath::V3d(r * std::sqrt(std::max(0.0, 1 - c * c)), 0, r * c)), axis(0, 0, 1);
+      if (counts && !counts(x)) continue;
       const Vec3 radial = normalize(x);
-      double square = 0, difference = 0;
+      const double density_a = static_cast<double>(a.density(x, axis)),
+                   density_b = static_cast<double>(b.density(x, axis));
+      const double equal = density_b > 1e-6 * density_a ? density_a / density_b : 0;
+      double square = 0, difference = 0, shape_square = 0, shape_difference = 0;
       for (size_t k = 0; k < polar.size(); ++k)
         for (int n = 0; n < kAzimuths; ++n) {
           // Finer outwards, where the light goes.
@@ -71,18 +75,19 @@ LobeDifference compare_lobes(const LobeField& a, const LobeField& b) {
                          Vec3(0, static_cast<float>(std::sin(theta) * std::sin(phi)), 0);
           const double in_a = static_cast<double>(a.eval(x, axis, w)), in_b = static_cast<double>(b.eval(x, axis, w));
           square += solid * (in_a * in_a + in_b * in_b) / 2;
-          difference += solid * (in_a - in_b) * (in_a - in_b);
+          difference += solid * sqr(in_a - in_b);
+          shape_square += solid * (sqr(in_a) + sqr(equal * in_b)) / 2;
+          shape_difference += solid * sqr(in_a - equal * in_b);
         }
-      const double density_a = static_cast<double>(a.density(x, axis)),
-                   density_b = static_cast<double>(b.density(x, axis));
       const double r0 = grid.radius(i), r1 = grid.radius(i + 1);
       const double mass = density_a * (r1 * r1 * r1 - r0 * r0 * r0) * (grid.cosine(j) - grid.cosine(j + 1));
       if (!(square > 0 && density_a + density_b > 0)) continue;
       energy += mass;
       lobes += mass * difference / square;
+      if (shape_square > 0) shapes += mass * shape_difference / shape_square;
       densities += mass * 2 * sqr(density_a - density_b) / (sqr(density_a) + sqr(density_b));
     }
-  return {std::sqrt(lobes / energy), std::sqrt(densities / energy)};
+  return {std::sqrt(lobes / energy), std::sqrt(densities / energy), std::sqrt(shapes / energy)};
 }
 
 }  // namespace turbid

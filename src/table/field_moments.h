@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "table/lobe_field.h"
 
 namespace turbid {
@@ -18,12 +20,15 @@ FieldMoments measure_moments(const LobeField& field);
 /// E[r^2] = 2 k + 2 g (k (1 - g) - (1 - g^k)) / (1 - g)^2 from both.
 FieldMoments exact_moments(double g, double albedo, SourceKind kind, int from_order = 3);
 
-/// How far two fields are apart: root of the mean over the grid's cells, weighed by their energy in `a`, of the squared
+/// How far two fields are apart: root of the mean over a grid's cells, weighed by their energy in `a`, of the squared
 /// difference over the mean of both squares. Looked at alternately in the middle and at the corner of cells.
 struct LobeDifference {
   double lobes = 0;    ///< over directions
   double density = 0;  ///< over all directions together
+  double shape = 0;    ///< over directions, of lobes that are made equal in density
 };
-LobeDifference compare_lobes(const LobeField& a, const LobeField& b);
+/// `counts`: of a place, whether it does.
+LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid,
+                             const std::function<bool(const Vec3&)>& counts = {});
 
 }  // namespace turbid

@@ -30,11 +30,10 @@ class Collector {
     counts_[cell] += 1;
     if (!inside) return;
     float* sums = moments_.data() + cell * cell_size_;
-    SagittalHarmonics::for_each_degree(
-        shape_.bands.degree, view.direction, [&](int, const SagittalHarmonics::Lanes& y) {
-          (SagittalHarmonics::load(sums) + y).copy_to(sums, std::experimental::element_aligned);
-          sums += SagittalHarmonics::kOrders;
-        });
+    SagittalHarmonics::for_each_degree(degree_, view.direction, [&](int, const SagittalHarmonics::Lanes& y) {
+      (SagittalHarmonics::load(sums) + y).copy_to(sums, std::experimental::element_aligned);
+      sums += SagittalHarmonics::kOrders;
+    });
   }
 
   void finish(size_t samples, std::vector<float>& moments, std::vector<float>& mean_order) {
@@ -69,13 +68,15 @@ constexpr size_t kWalks = 8;
 /// them. What limits the noise of these is how far the walks went.
 struct Plan {
   bool joined;
-  size_t stride, fewer, reach;
+  size_t stride, reach;
+  double share;  ///< of the samples that the settings say
 
   explicit Plan(const OrderBin& bin) {
     const auto last = static_cast<size_t>(bin.last);
     joined = bin.first > 64;
     stride = joined ? 4 : 1;
-    fewer = bin.first > 256 ? 2 : 1;
+    // The first orders are all that there is at low albedo; at high albedo many bins share the light.
+    share = bin.first <= 6 ? 2 : bin.first <= 128 ? 1 : bin.first <= 1024 ? 0.5 : 0.25;
     reach = joined ? std::max<size_t>(1000, 2 * last / kWalks) : last;
   }
 };
@@ -87,7 +88,8 @@ void simulate_bin(const PhaseFunction& phase, const TableShape& shape, const Sim
   for (size_t w = 0; w < kWalks; ++w)
     walks.emplace_back(phase, plan.reach, hash_counters(settings.seed, static_cast<uint64_t>(bin.first), w));
   Collector collision(shape, degree), ray(shape, degree);
-  const size_t rounds = (settings.deposits / plan.fewer + kWalks - 1) / kWalks;
+  const size_t rounds =
+      (static_cast<size_t>(plan.share * static_cast<double>(settings.deposits)) + kWalks - 1) / kWalks;
   for (size_t n = 0; n < rounds; ++n) {
     for (size_t s = plan.stride; s > 0; --s)
       for (EndlessWalk& walk : walks) walk.step();

@@ -3,18 +3,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "table/light_field.h"
 #include "table/phase_moments.h"
 #include "table/polar_grid.h"
 #include "table/sagittal_harmonics.h"
 
 namespace turbid {
-
-/// From where light sets out.
-enum class SourceKind {
-  kCollision,  ///< a photon collides at the origin, having travelled along +z
-  kRay         ///< a photon sets out from the origin along +z, unscattered, and collides where it may
-};
-inline constexpr size_t kSourceKinds = 2;
 
 /// What the tables are made of: cells and bands.
 struct TableShape {
@@ -35,7 +29,8 @@ struct OrderBin {
 
 struct SimulationSettings {
   uint64_t seed = 1;
-  size_t deposits = 4'000'000;  ///< per bin and source kind; half of it for orders above 256
+  size_t deposits =
+      4'000'000;  ///< per bin and source kind; orders to 6 get twice that, above 128 half, above 1024 a quarter
 };
 
 /// Bins of orders of scattering: 3 ... 10 alone, then two per octave up to 22,527.

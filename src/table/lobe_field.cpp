@@ -38,12 +38,22 @@ struct AlbedoWeights {
 };
 
 /// Adds scale times the interpolant over the nodes of albedo of one cell.
+///
+/// Far from the source light falls off like exp(-k r), k the decay rate, a number of its own for each albedo. This much
+/// is known: logarithms are interpolated without it. (With it, a cubic is 1 to 2 % off at 120 mean free paths, g = 0.9,
+/// albedo 0.999.)
 class Unpacker {
  public:
-  Unpacker(const ScatteringTable& table, SourceKind kind)
-      : kind_(table.kinds[static_cast<size_t>(kind)]),
+  Unpacker(const ScatteringTable& table, SourceKind kind, double albedo)
+      : weights_(albedo),
+        kind_(table.kinds[static_cast<size_t>(kind)]),
         cells_(table.shape.grid.cell_count()),
-        coefficients_(table.coefficients()) {}
+        coefficients_(table.coefficients()) {
+    for (size_t i = 0; i < 4; ++i)
+      excess_decay_ +=
+          weights_.weights[i] * decay_rate(table.moments, albedo_at_node(static_cast<int>(weights_.first + i)));
+    excess_decay_ -= decay_rate(table.moments, albedo);
+  }
 
   void add_set(float* row, size_t set, size_t cell, double scale) const {
     const double value = scale * density(set, cell);
@@ -52,9 +62,10 @@ class Unpacker {
     for (size_t c = 0; c < coefficients_.size(); ++c) at(row, c) += static_cast<float>(value * ratio(set, cell, c));
   }
 
-  /// Logarithm of the density and ratios, or plainly where there is no light at one of the nodes.
-  void add_nodes(float* row, const AlbedoWeights& w, size_t cell, double scale) const {
-    double logarithm = 0;
+  /// Logarithm of the density and ratios, or plainly where there is no light at one of the nodes; r: of the cell.
+  void add_nodes(float* row, size_t cell, double r, double scale) const {
+    const AlbedoWeights& w = weights_;
+    double logarithm = excess_decay_ * r;
     bool all = true;
     for (size_t i = 0; i < 4; ++i) {
       const double value = density(w.first + i, cell);
@@ -85,6 +96,8 @@ class Unpacker {
     return row[static_cast<size_t>(coefficients_[c].first) * kOrders + static_cast<size_t>(coefficients_[c].second)];
   }
 
+  AlbedoWeights weights_;
+  double excess_decay_ = 0;  ///< of the interpolant of decay rates over the albedo's own
   const ScatteringTable::Kind& kind_;
   size_t cells_;
   std::vector<std::pair<int, int>> coefficients_;
@@ -107,13 +120,12 @@ LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albed
     throw std::invalid_argument(
         fmt::format("tables of multiple scattering begin at order 3, 4 or 5, not {}", from_order));
   nodes_.resize(grid_.cell_count() * cell_size_);
-  const Unpacker unpacker(table, kind);
-  const AlbedoWeights weights(albedo);
+  const Unpacker unpacker(table, kind, albedo);
   for (size_t cell = 0; cell < grid_.cell_count(); ++cell) {
     float* row = nodes_.data() + cell * cell_size_;
     if (from_order <= 3) unpacker.add_set(row, ScatteringTable::kOrder3, cell, std::pow(albedo, 3));
     if (from_order <= 4) unpacker.add_set(row, ScatteringTable::kOrder4, cell, std::pow(albedo, 4));
-    unpacker.add_nodes(row, weights, cell, std::pow(albedo, 5));
+    unpacker.add_nodes(row, cell, grid_.middle(static_cast<int>(cell) / grid_.angles()), std::pow(albedo, 5));
   }
 }
 

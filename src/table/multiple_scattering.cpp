@@ -6,9 +6,6 @@
 namespace turbid {
 namespace {
 
-/// Below these optical lengths a stretch of light is looked up as collisions at their mean depth, and at three depths:
-/// b(z) - e^-D b(z - D) would be the small difference of large numbers, and their noise grows by 1/(1 - e^-D).
-constexpr float kShortest = 0.2f, kShort = 1;
 /// Beyond it nothing is left of the light.
 constexpr float kLong = 30;
 
@@ -45,39 +42,17 @@ class Equiangular {
   float nearest_, distance_, first_, range_, length_;
 };
 
-/// int_0^depth e^-t r(x - t axis, w) dt of a short stretch, by one or three collisions on it.
-float short_stretch(const LobeField& collision, float depth, const Vec3& x, const Vec3& axis, const Vec3& w) {
-  const float collided = -std::expm1(-depth);
-  if (depth < kShortest) {
-    const float mean_depth = depth < 1e-2f ? depth / 2 : 1 - depth * std::exp(-depth) / collided;
-    return collided * collision.eval(x - axis * mean_depth, axis, w);
-  }
-  // Gauss-Legendre in the probability to have collided.
-  float sum = 0;
-  for (const auto& [node, weight] : {std::pair{0.1127017f, 5.0f / 18}, {0.5f, 8.0f / 18}, {0.8872983f, 5.0f / 18}})
-    sum += weight * collision.eval(x + axis * std::log1p(-node * collided), axis, w);
-  return collided * sum;
-}
-
 }  // namespace
 
-MultipleScattering::MultipleScattering(const HomogeneousMedium& medium, const ScatteringTable& table, int from_order)
+MultipleScattering::MultipleScattering(const HomogeneousMedium& medium, const ChannelLights& lights)
     : sigma_t_(medium.sigma_t()), mean_sigma_t_(medium.sigma_t().mean()) {
   for (int c = 0; c < kChannels; ++c) {
-    if (!(medium.albedo()[c] > 0)) continue;
     Channel& channel = channels_[c];
+    channel.light = lights[static_cast<size_t>(c)];
+    if (!channel.light) continue;
     channel.sigma_t = sigma_t_[c];
     channel.volume_scale = channel.sigma_t * channel.sigma_t * channel.sigma_t;
     reach_ = std::max(reach_, kLong / channel.sigma_t);
-    for (int same = 0; same < c; ++same)
-      if (medium.albedo()[same] == medium.albedo()[c]) {
-        channel.collision = channels_[same].collision;
-        channel.ray = channels_[same].ray;
-      }
-    if (channel.collision) continue;
-    const auto albedo = static_cast<double>(medium.albedo()[c]);
-    channel.collision = std::make_shared<LobeField>(table, SourceKind::kCollision, albedo, from_order);
-    channel.ray = std::make_shared<LobeField>(table, SourceKind::kRay, albedo, from_order);
   }
 }
 
@@ -87,8 +62,8 @@ Spectrum MultipleScattering::source_radiance(const Vec3& at, const Vec3& directi
                                              const Vec3& w) const {
   Spectrum result;
   for (int c = 0; c < kChannels; ++c)
-    if (const Channel& channel = channels_[c]; channel.collision)
-      result[c] = channel.volume_scale * channel.collision->eval((x - at) * channel.sigma_t, direction, w);
+    if (const Channel& channel = channels_[c]; channel.light)
+      result[c] = channel.volume_scale * channel.light->from_collision((x - at) * channel.sigma_t, direction, w);
   return result;
 }
 
@@ -96,19 +71,10 @@ Spectrum MultipleScattering::source_radiance(const Stretch& light, const Vec3& x
   Spectrum result;
   for (int c = 0; c < kChannels; ++c) {
     const Channel& channel = channels_[c];
-    if (!channel.ray) continue;
     const float depth = light.length * channel.sigma_t;
+    if (!channel.light || !(depth > 0)) continue;
     const Vec3 from = (x - light.origin) * channel.sigma_t;
-    float value;
-    if (depth < kShort) {
-      if (!(depth > 0)) continue;
-      value = short_stretch(*channel.collision, depth, from, light.direction, w);
-    } else {
-      value = channel.ray->eval(from, light.direction, w);
-      if (depth < kLong)
-        value -= std::exp(-depth) * channel.ray->eval(from - light.direction * depth, light.direction, w);
-    }
-    result[c] = channel.volume_scale * std::max(0.0f, value);
+    result[c] = channel.volume_scale * std::max(0.0f, channel.light->from_stretch(from, light.direction, depth, w));
   }
   return result;
 }

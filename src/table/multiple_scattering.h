@@ -4,7 +4,7 @@
 
 #include "core/spectrum.h"
 #include "medium/homogeneous.h"
-#include "table/lobe_field.h"
+#include "table/scattered_light.h"
 
 namespace turbid {
 
@@ -23,7 +23,7 @@ struct WeightedStretch {
 
 /// Light of the third and higher orders of scattering in a homogeneous medium that goes on for ever: the four queries
 /// of S1 eq. 6-11, per colour channel, in scene units. Each channel has its own albedo and mean free path, so its own
-/// LobeField, looked up in its own units.
+/// ScatteredLight, looked up in its own units.
 ///
 /// Light comes in two forms: a photon that collides at a point (it travelled along a direction), or one that sets out
 /// unscattered along a stretch, where it may collide. All results are per unit of flux that collides or sets out, and
@@ -37,15 +37,17 @@ struct WeightedStretch {
 /// Channels in which nothing is extinguished or scattered are black. Immutable, shared between threads.
 class MultipleScattering {
  public:
-  /// Throws std::invalid_argument (with advice) when an albedo is above kLargestAlbedo. from_order: 3, 4 or 5, counting
-  /// all collisions, the light's first one and the last one included.
-  MultipleScattering(const HomogeneousMedium& medium, const ScatteringTable& table, int from_order = 3);
+  /// From any table's lights.
+  MultipleScattering(const HomogeneousMedium& medium, const ChannelLights& lights);
+  /// From a table of mode `exact`. Throws std::invalid_argument (with advice) when an albedo is above kLargestAlbedo.
+  /// from_order: 3, 4 or 5, counting all collisions, the light's first one and the last one included.
+  MultipleScattering(const HomogeneousMedium& medium, const ScatteringTable& table, int from_order = 3)
+      : MultipleScattering(medium, exact_lights(medium, table, from_order)) {}
   ~MultipleScattering();
 
   /// Point to point (S1 eq. 6): light collides at `at`, having travelled along `direction`.
   Spectrum source_radiance(const Vec3& at, const Vec3& direction, const Vec3& x, const Vec3& w) const;
-  /// Segment to point (S1 eq. 10): light sets out along a stretch. One look-up for half-infinite rays and for stretches
-  /// shorter than 0.2 mean free paths, three for those shorter than 1, else two.
+  /// Segment to point (S1 eq. 10): light sets out along a stretch.
   Spectrum source_radiance(const Stretch& light, const Vec3& x, const Vec3& w) const;
 
   /// Of several stretches; nowhere negative.
@@ -68,8 +70,8 @@ class MultipleScattering {
 
  private:
   struct Channel {
-    std::shared_ptr<const LobeField> collision, ray;  ///< null: the channel is black
-    float sigma_t = 0, volume_scale = 0;              ///< sigma_t^3
+    std::shared_ptr<const ScatteredLight> light;  ///< null: the channel is black
+    float sigma_t = 0, volume_scale = 0;          ///< sigma_t^3
   };
   template <class Source>
   Spectrum integrate(const Stretch& view, float nearest, float distance, float u, int samples,

@@ -11,6 +11,7 @@
 #include "core/hash.h"
 #include "core/log.h"
 #include "image/atomic_file.h"
+#include "table/quadtree_file.h"
 #include "table/table_file.h"
 
 namespace turbid {
@@ -44,12 +45,36 @@ struct Order {
   }
 };
 
+/// What is asked of mode `seed`.
+struct QuadtreeOrder {
+  std::vector<double> moments;
+  Spectrum albedo;
+  QuadtreeSettings settings;
+  std::string path;
+
+  QuadtreeOrder(const PhaseFunction& phase, const Spectrum& wanted_albedo, const QuadtreeSettings& wanted,
+                const std::string& folder)
+      : moments(legendre_moments(phase, 64)), albedo(wanted_albedo), settings(wanted) {
+    uint64_t key =
+        hash_counters(kQuadtreeVersion, settings.seed, settings.photons, static_cast<uint64_t>(settings.from_order));
+    for (const double moment : moments) key = hash_counters(key, static_cast<uint64_t>(std::llround(moment * 1e6)));
+    for (int c = 0; c < kChannels; ++c) key = hash_counters(key, std::bit_cast<uint32_t>(albedo[c]));
+    path = fmt::format("{}/seed-g{:.3f}-{:016x}.h5", folder_for(folder), moments[1], key);
+  }
+
+  bool matches(const QuadtreeTable& table) const {
+    return table.albedo == albedo && table.settings.seed == settings.seed &&
+           table.settings.photons == settings.photons && table.settings.from_order == settings.from_order;
+  }
+};
+
 /// From the file; null when there is none that serves.
-std::shared_ptr<const ScatteringTable> load(const Order& order) {
+template <class Table, class Order, class Decode>
+std::shared_ptr<const Table> load(const Order& order, const Decode& decode) {
   std::error_code ignored;
   if (!std::filesystem::exists(order.path, ignored)) return nullptr;
   try {
-    auto table = std::make_shared<ScatteringTable>(decode_table(read_file(order.path), order.path));
+    auto table = std::make_shared<Table>(decode(read_file(order.path), order.path));
     if (order.matches(*table)) return table;
     log_warning(order.path + ": this table was made for something else; it is built anew");
   } catch (const FileError& error) {
@@ -58,14 +83,31 @@ std::shared_ptr<const ScatteringTable> load(const Order& order) {
   return nullptr;
 }
 
-void keep(const ScatteringTable& table, const std::string& path) {
+void keep(const std::string& bytes, const std::string& path) {
   try {
     std::error_code error;
     std::filesystem::create_directories(std::filesystem::path(path).parent_path(), error);
-    write_file_atomically(path, encode_table(table));
+    write_file_atomically(path, bytes);
   } catch (const FileError& error) {
     log_warning(std::string("a table of multiple scattering could not be kept: ") + error.what());
   }
+}
+
+/// One that is in use, from its file, or built and kept.
+template <class Table, class Order, class Decode, class Build, class Encode>
+std::shared_ptr<const Table> find(const Order& order, const Decode& decode, const Build& build, const Encode& encode) {
+  static std::mutex mutex;
+  static std::map<std::string, std::weak_ptr<const Table>> in_use;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const Table>& kept = in_use[order.path];
+  if (auto table = kept.lock()) return table;
+  std::shared_ptr<const Table> table = load<Table>(order, decode);
+  if (!table) {
+    table = std::make_shared<Table>(build());
+    keep(encode(*table), order.path);
+  }
+  kept = table;
+  return table;
 }
 
 }  // namespace
@@ -77,19 +119,21 @@ size_t default_deposits(const BandLimits& bands) {
 std::string table_path(const PhaseFunction& phase, const TableRequest& request) { return Order(phase, request).path; }
 
 std::shared_ptr<const ScatteringTable> find_table(const PhaseFunction& phase, const TableRequest& request) {
-  static std::mutex mutex;
-  static std::map<std::string, std::weak_ptr<const ScatteringTable>> in_use;
   const Order order(phase, request);
-  const std::lock_guard lock(mutex);
-  std::weak_ptr<const ScatteringTable>& kept = in_use[order.path];
-  if (auto table = kept.lock()) return table;
-  std::shared_ptr<const ScatteringTable> table = load(order);
-  if (!table) {
-    table = std::make_shared<ScatteringTable>(build_table(phase, order.shape, order.settings));
-    keep(*table, order.path);
-  }
-  kept = table;
-  return table;
+  return find<ScatteringTable>(
+      order, decode_table, [&] { return build_table(phase, order.shape, order.settings); }, encode_table);
+}
+
+std::string quadtree_path(const PhaseFunction& phase, const Spectrum& albedo, const QuadtreeSettings& settings,
+                          const std::string& folder) {
+  return QuadtreeOrder(phase, albedo, settings, folder).path;
+}
+
+std::shared_ptr<const QuadtreeTable> find_quadtree(const PhaseFunction& phase, const Spectrum& albedo,
+                                                   const QuadtreeSettings& settings, const std::string& folder) {
+  const QuadtreeOrder order(phase, albedo, settings, folder);
+  return find<QuadtreeTable>(
+      order, decode_quadtree, [&] { return build_quadtree_table(phase, albedo, settings); }, encode_quadtree);
 }
 
 }  // namespace turbid

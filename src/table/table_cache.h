@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "table/quadtree_table.h"
 #include "table/scattering_table.h"
 
 namespace turbid {
@@ -24,5 +25,13 @@ std::string table_path(const PhaseFunction& phase, const TableRequest& request);
 /// the same table at once both succeed, the second replaces the file by its equal. Tables in use are shared within a
 /// process. Throws std::invalid_argument with advice for phase functions that tables do not hold (choose_bands).
 std::shared_ptr<const ScatteringTable> find_table(const PhaseFunction& phase, const TableRequest& request = {});
+
+/// The same of mode `seed`: one for each phase function and albedo, of any phase function. `folder` as above. Throws
+/// std::invalid_argument with advice for albedos above kLargestAlbedo.
+std::string quadtree_path(const PhaseFunction& phase, const Spectrum& albedo, const QuadtreeSettings& settings,
+                          const std::string& folder = "");
+std::shared_ptr<const QuadtreeTable> find_quadtree(const PhaseFunction& phase, const Spectrum& albedo,
+                                                   const QuadtreeSettings& settings = {},
+                                                   const std::string& folder = "");
 
 }  // namespace turbid

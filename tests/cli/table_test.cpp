@@ -61,6 +61,21 @@ TEST_F(Table, OfTheMediaOfAScene) {
   expect_words(outcome.output, "ray          0.8000");
 }
 
+TEST_F(Table, AsPublished) {
+  const Outcome first = run({"--mode", "seed", "--photons", "2000", "--g", "0.3", "--albedo", "0.6", "-o", "plot.png"});
+  EXPECT_EQ(first.exit_code, 0) << first.errors;
+  expect_words(first.output, "built in ");
+  expect_words(first.output, "2000 photons, orders 3 and more");
+  expect_words(first.output, "collision    0.6000");
+  expect_words(first.output, "segment      0.6000");
+  EXPECT_EQ(files(), 2u);  // and the exact one
+  for (const std::string source : {"point", "segment"})
+    for (const std::string what : {"axes", "cells", "lobes"})
+      EXPECT_TRUE(std::filesystem::exists(folder_.file("plot-" + source + "-" + what + ".png"))) << source << what;
+  expect_words(run({"--mode", "seed", "--photons", "2000", "--g", "0.3", "--albedo", "0.6"}).output, "read in ");
+  EXPECT_EQ(run({"--mode", "other", "--g", "0.3"}).exit_code, 2);
+}
+
 TEST_F(Table, RefusesWithAdvice) {
   const Outcome narrow = run({"--g", "0.95"});
   EXPECT_EQ(narrow.exit_code, 2);

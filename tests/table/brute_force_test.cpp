@@ -5,6 +5,7 @@
 
 #include "core/gauss_legendre.h"
 #include "table/lobe_field.h"
+#include "table/plain_photons.h"
 #include "table/tables_for_tests.h"
 
 /// The tables against a walk written for this test alone: starts anew for every photon, in double precision, by other
@@ -14,17 +15,6 @@ namespace {
 
 using Imath::V3d;
 constexpr double kPiD = std::numbers::pi;
-
-/// A direction whose angle to `d` has Henyey-Greenstein's distribution.
-V3d deflect(const V3d& d, double g, Rng& rng) {
-  const double u = rng.next_double(), phi = 2 * kPiD * rng.next_double();
-  const double q = (1 - g * g) / (1 - g + 2 * g * u);
-  const double mu = g == 0 ? 1 - 2 * u : (1 + g * g - q * q) / (2 * g);
-  const V3d helper = std::abs(d.x) < 0.5 ? V3d(1, 0, 0) : V3d(0, 1, 0);
-  const V3d s = d.cross(helper).normalized(), t = d.cross(s);
-  const double sine = std::sqrt(std::max(0.0, 1 - mu * mu));
-  return (s * (sine * std::cos(phi)) + t * (sine * std::sin(phi)) + d * mu).normalized();
-}
 
 constexpr std::array kShells = {0.0, 0.4, 1.5, 4.0, 10.0, 25.0};
 constexpr size_t kFunctions = 6;
@@ -44,22 +34,17 @@ Statistics walk(double g, double albedo, bool ray, int photons) {
   Rng rng(99);
   for (int p = 0; p < photons; ++p) {
     std::array<std::array<double, kFunctions>, kShells.size() - 1> mine{};
-    V3d x(0), d(0, 0, 1);
-    if (ray) x = d * -std::log(1 - rng.next_double());
-    // Every photon survives its first three collisions, later ones by chance.
-    const double weight = albedo * albedo * albedo;
-    for (int n = 1; n <= 3 || rng.next_double() < albedo; ++n) {
-      const V3d out = deflect(d, g, rng);
-      const double r = x.length();
-      if (n >= 3)
-        for (size_t s = 0; s + 1 < kShells.size(); ++s)
-          if (r >= kShells[s] && r < kShells[s + 1]) {
-            const auto f = functions(x, out);
-            for (size_t k = 0; k < kFunctions; ++k) mine[s][k] += weight * f[k];
-          }
-      d = out;
-      x += d * -std::log(1 - rng.next_double());
-    }
+    follow_photon(
+        g, albedo, rng,
+        [&](const V3d& x, const V3d& out, double weight) {
+          const double r = x.length();
+          for (size_t s = 0; s + 1 < kShells.size(); ++s)
+            if (r >= kShells[s] && r < kShells[s + 1]) {
+              const auto f = functions(x, out);
+              for (size_t k = 0; k < kFunctions; ++k) mine[s][k] += weight * f[k];
+            }
+        },
+        ray);
     for (size_t s = 0; s < mine.size(); ++s)
       for (size_t k = 0; k < kFunctions; ++k) {
         result.sum[s][k] += mine[s][k] / photons;

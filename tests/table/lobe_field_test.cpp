@@ -78,7 +78,7 @@ TEST(LobeField, FromHigherOrders) {
 TEST(LobeField, HasTheEnergyOfItsOrders) {
   for (const float g : {0.0f, 0.7f})
     for (const SourceKind kind : {SourceKind::kCollision, SourceKind::kRay})
-      for (const double albedo : {0.1, 0.5, 0.8, 0.95, 0.99}) {
+      for (const double albedo : {0.1, 0.5, 0.8, 0.95, 0.99, 0.999}) {
         const LobeField field(small_table(g), kind, albedo);
         EXPECT_NEAR(measure_moments(field).energy / (std::pow(albedo, 3) / (1 - albedo)), 1, 5e-3)
             << "g " << g << ", albedo " << albedo;
@@ -130,6 +130,20 @@ TEST(LobeField, EndsInTheDiffuseFarField) {
   const double exact = decay_rate(small_table(0.7f).moments, albedo);
   EXPECT_NEAR(ratio(150, exact) / ratio(61, exact), 1, 0.01);
   EXPECT_GT(std::abs(ratio(150, k) / ratio(61, k) - 1), 0.03);
+}
+
+TEST(LobeField, HighOrdersHaveFewBands) {
+  TableShape shape{PolarGrid(12, 10, 60), {12, 3}};
+  const std::vector<OrderBin> bins = simulate_orders(HenyeyGreensteinPhase(0.7f), shape, {1, 4000});
+  const auto light_in_band = [&](const OrderBin& bin, size_t l) {
+    double sum = 0;
+    for (size_t cell = 0; cell < shape.grid.cell_count(); ++cell)
+      sum += std::abs(static_cast<double>(bin.moments[0][cell * shape.cell_size() + l * SagittalHarmonics::kOrders]));
+    return sum;
+  };
+  EXPECT_GT(light_in_band(bins.front(), 12), 0);
+  EXPECT_GT(light_in_band(bins.back(), 2), 0);
+  EXPECT_EQ(light_in_band(bins.back(), 3), 0) << "noise";
 }
 
 TEST(LobeField, IsTheSameForAnyNumberOfThreads) {
