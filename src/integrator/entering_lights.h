@@ -1,4 +1,5 @@
 #pragma once
+#include "integrator/place_tree.h"
 #include "integrator/table_light.h"
 
 namespace turbid {
@@ -41,12 +42,10 @@ class EnteringLights {
   struct Group {
     const HomogeneousMedium* medium;
     std::vector<EnteringLight> lights;
-    std::vector<Vec3> places;  ///< about where each has lost its direction
-    std::vector<float> strengths;
+    PlaceTree tree;                   ///< of about where each has lost its direction
     float free_path, transport_path;  ///< mean ones, of the channels' mean
     float decay;                      ///< 1/length, far away, of the channel that reaches farthest
-    explicit Group(const HomogeneousMedium* m);
-    void add(const EnteringLight& light);
+    Group(const HomogeneousMedium* m, std::vector<EnteringLight> entered);
   };
   template <class Bring>
   Spectrum ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const;
