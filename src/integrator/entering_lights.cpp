@@ -44,8 +44,11 @@ std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, u
 
 std::vector<Parameter> entering_parameters() {
   std::vector<Parameter> parameters = table_parameters();
-  parameters.push_back({"entering_lights", ParameterType::kInteger, "4000",
-                        "about so many ways of light in a set that tables begin with", kAtLeastOne});
+  parameters.push_back({"entering_lights",
+                        ParameterType::kInteger,
+                        "0",
+                        "about so many ways of light in a set that tables begin with; 0: two for each pixel",
+                        {.min = 0}});
   parameters.push_back({"table_samples", ParameterType::kInteger, "4",
                         "of these asked for at each place, or on each way, of the sensor's walks", kAtLeastOne});
   return parameters;
@@ -135,6 +138,11 @@ Spectrum EnteringLights::at_collision(const CollisionEvent& event, const PathSta
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) {
   constexpr size_t kPilotPaths = 4096;
   constexpr double kLeastPerPath = 0.001;
+  // Small pictures see as much of a medium as large ones; beyond the largest number noise is not the sets'.
+  constexpr size_t kFewest = 4000, kMost = 400'000;
+  if (lights == 0) {
+    lights = std::clamp(2 * pixel_count(plan.scene.film()), kFewest, kMost);
+  }
   SampleCounters counters;
   const double per_path =
       static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).size()) / static_cast<double>(kPilotPaths);

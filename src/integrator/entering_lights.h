@@ -5,7 +5,7 @@
 namespace turbid {
 
 struct EnteringLightsSettings {
-  size_t lights = 4000;  ///< about so many in a set
+  size_t lights = 0;  ///< about so many in a set; 0: by the size of the film
   int samples = 4;       ///< of these asked for at each place or way
 };
 /// The parameters of tables (table_parameters) and of these settings, and what the latter say.
@@ -55,7 +55,8 @@ class EnteringLights {
   std::vector<Group> groups_;
 };
 
-/// How many light paths make about so many entering lights; found by a pilot that depends on the plan alone.
+/// How many light paths make about so many entering lights (0: two for each pixel, which all samples of a set share);
+/// found by a pilot that depends on the plan alone.
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights);
 
 /// The sets of a render, one after the other: samples of all pixels share a set, named by seed and number.

@@ -46,6 +46,19 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
   return settings;
 }
 
+namespace {
+
+/// Some boundary of the medium lets light through in a choice of directions.
+bool has_rough_boundary(const Scene& scene, const Medium* medium) {
+  constexpr lobe::Flags kRough = lobe::kSmooth | lobe::kTransmission;
+  return std::any_of(scene.objects().begin(), scene.objects().end(), [&](const Object& object) {
+    return (object.interior.get() == medium || object.exterior.get() == medium) &&
+           (object.bsdf->flags() & kRough) == kRough;
+  });
+}
+
+}  // namespace
+
 TableLight::TableLight(const Scene& scene, const TableSettings& settings) : settings_(settings) {
   for (const Surroundings& surroundings : scene.media()) {
     const HomogeneousMedium* medium = surroundings.medium->as_homogeneous();
@@ -54,6 +67,10 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
       continue;
     }
     if (medium->sigma_s().is_black()) continue;
+    if (!settings.behind_rough && has_rough_boundary(scene, medium)) {
+      log_warning("multiple scattering behind rough boundaries is left to the method, which stops there");
+      continue;
+    }
     try {
       const bool walks = settings.source == TableSettings::Source::kModel;
       if (walks && medium->albedo().max() > static_cast<float>(kLargestAlbedo))

@@ -22,6 +22,9 @@ struct TableSettings {
   Source source = Source::kNone;
   int from_order = 3;   ///< collisions in one visit from which on the table has them: 3, 4 or 5
   bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
+  /// Media whose boundary lets light through in a choice of directions have tables, too. False for methods that stop at
+  /// such a boundary, and do not come to where tables are looked up.
+  bool behind_rough = true;
   TableRequest request;
 };
 

@@ -122,6 +122,20 @@ TEST(TableLight, LeavesLowerOrdersAlone) {
   expect_same_light("upbp", plain, observe_by(bright_ball(true), make_upbp(path, table), 16, 4), 0.03);
 }
 
+// `vrl` stops at boundaries that scatter light, and would not come to what it leaves to tables behind them.
+TEST(TableLight, LeavesMediaBehindRoughBoundariesToMethodsThatStopThere) {
+  const std::string body = medium("interior", "3, 4, 3.5", "0.9, 0.95, 0.8", 0.3f);
+  const auto media = [&](const std::string& bsdf, bool behind_rough) {
+    LoadedScene loaded = load_scene_from_string(scene(ball("0, 0, 1", 1, bsdf + body), "", kPinhole), "test scene", {});
+    TableSettings settings = settings_for_tests();
+    settings.behind_rough = behind_rough;
+    return TableLight(Scene(std::move(loaded.parts)), settings).media().size();
+  };
+  EXPECT_EQ(media(R"(<bsdf type="roughdielectric"/>)", true), 1u);
+  EXPECT_EQ(media(R"(<bsdf type="roughdielectric"/>)", false), 0u);
+  EXPECT_EQ(media(R"(<bsdf type="dielectric"/>)", false), 1u);
+}
+
 /// A layer of 200 mean free paths' width in even light, seen from above where its edges are far.
 struct Layer {
   std::string name;
