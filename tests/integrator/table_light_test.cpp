@@ -104,10 +104,10 @@ TEST(TableLight, IntegratorsAgreeOnIt) {
     TableSettings table = settings_for_tests();
     table.images = images;
     const PathSettings path{.min_scattering = 3};
-    const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 4, 1);
-    expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 16, 2), 0.01);
+    const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 6, 1);
+    expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2), 0.01);
     expect_same_light("volpath", vrl, observe_by(bright_ball(false), make_volpath(path, table), 128, 3), 0.03);
-    expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 16, 2, 1.05),
+    expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2, 1.05),
                       0.01, false);
   }
 }
