@@ -103,7 +103,7 @@ Spectrum TableLight::source_radiance(const EnteringLight& light, const BoundaryP
   const Entry* entry = find(light.medium);
   if (!entry) return Spectrum(0.0f);
   if (!boundaries.empty())
-    return light.flux * entry->scattering->source_radiance(images_of(light.way, boundaries), x, w);
+    return light.flux * bounded_source_radiance(*entry->scattering, light.way, boundaries, x, w);
   return light.flux * (entry->scattering
                            ? entry->scattering->source_radiance(light.way, x, w)
                            : walk_source_radiance(*entry->medium, settings_.from_order, light.way, x, w, rng));
@@ -127,10 +127,7 @@ Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& bou
   const Entry* entry = find(light.medium);
   if (!entry || !counts(light, state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
   const Stretch view{way.origin, way.direction, way.t_max};
-  if (entry->scattering && !boundaries.empty())
-    return state.throughput * light.flux *
-           entry->scattering->radiance(images_of(light.way, boundaries), view, rng.next_float(), 1);
-  if (entry->scattering)
+  if (entry->scattering && boundaries.empty())
     return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);
   const auto at = collide_before(*entry->medium, way.t_max, channel_mix(state.throughput), rng.next_float());
   if (!std::isfinite(at.t) || !(at.pdf_t > 0)) return Spectrum(0.0f);

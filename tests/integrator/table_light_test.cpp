@@ -136,6 +136,31 @@ TEST(TableLight, LeavesMediaBehindRoughBoundariesToMethodsThatStopThere) {
   EXPECT_EQ(media(R"(<bsdf type="dielectric"/>)", false), 1u);
 }
 
+// In a box, a walk straight up sees the bottom behind it, and of what is before and beside it what is near enough.
+TEST(TableLight, SeesBoundariesOnAllSides) {
+  const std::string box = R"(<shape type="cube"><transform name="to_world"><scale x="2" y="2" z="1"/></transform>
+      <bsdf type="null"/>)" + medium("interior", "10, 10, 10", "0.9, 0.9, 0.9", 0) + "</shape>";
+  LoadedScene loaded = load_scene_from_string(scene(box, "", kPinhole), "test scene", {});
+  const Scene built(std::move(loaded.parts));
+  const Medium& inside = *built.media().front().medium;
+  const Boundaries boundaries(built, {&inside});
+  const auto around = [&](const Vec3& x) { return boundaries.around(x, {0, 0, 1}, inside); };
+  const BoundaryPlanes middle = around({0, 0, -0.9f});
+  ASSERT_EQ(middle.size(), 1u);  // all else is more than 12 mean free paths away
+  EXPECT_NEAR(middle[0].normal.z, -1, 1e-6f);
+  EXPECT_NEAR(middle[0].point.z, -1, 1e-5f);
+  EXPECT_NEAR(middle[0].extrapolation, 2.0f / 30, 1e-5f);
+  EXPECT_EQ(around({0, 0, 0}).size(), 2u);
+  const BoundaryPlanes corner = around({1.9f, 1.8f, 0.5f});
+  ASSERT_EQ(corner.size(), 4u);
+  Vec3 sum(0);
+  for (const BoundaryPlane& plane : corner) {
+    EXPECT_NEAR(plane.share, 1, 1e-5f);
+    sum += plane.normal;
+  }
+  EXPECT_LT(length(sum - Vec3(1, 1, 0)), 1e-5f);
+}
+
 /// A layer of 200 mean free paths' width in even light, seen from above where its edges are far.
 struct Layer {
   std::string name;
