@@ -32,6 +32,15 @@ float reflection_factor(const Bsdf& bsdf, float side) {
 
 }  // namespace
 
+void add_boundary(const BoundaryPlane& plane, BoundaryPlanes& planes) {
+  constexpr float kLeastShare = 0.05f;
+  float share = plane.share;
+  for (const BoundaryPlane& other : planes) share *= 1 - std::max(0.0f, dot(other.normal, plane.normal));
+  if (share < kLeastShare) return;
+  planes.push_back(plane);
+  planes.back().share = share;
+}
+
 Boundaries::Boundaries(const Scene& scene, const std::vector<const Medium*>& media) : scene_(scene) {
   const auto is_one = [&](const std::shared_ptr<const Medium>& medium) {
     return std::find(media.begin(), media.end(), medium.get()) != media.end();
@@ -63,11 +72,7 @@ BoundaryPlanes Boundaries::around(const Vec3& x, const Vec3& direction, const Me
   const float reduced = medium.sigma_t().mean() - medium.phase().mean_cosine() * medium.sigma_s().mean();
   const Frame beside(behind->normal);
   for (const Vec3& way : {direction, beside.s, -beside.s, beside.t, -beside.t}) {
-    auto plane = towards({x, way, kFar / reduced}, medium);
-    if (!plane) continue;
-    // Where it faces as another does both are about the same.
-    for (const BoundaryPlane& other : planes) plane->share *= 1 - std::max(0.0f, dot(other.normal, plane->normal));
-    if (plane->share > 0.05f) planes.push_back(*plane);
+    if (const auto plane = towards({x, way, kFar / reduced}, medium)) add_boundary(*plane, planes);
   }
   return planes;
 }

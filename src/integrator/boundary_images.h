@@ -15,6 +15,8 @@ struct BoundaryPlane {
   float share = 1;      ///< the power to which its factor is raised: 0 counts nothing
 };
 using BoundaryPlanes = std::vector<BoundaryPlane>;
+/// One more, which counts less the more it faces as those before it do: then they are about the same.
+void add_boundary(const BoundaryPlane& plane, BoundaryPlanes& planes);
 
 /// Where the boundaries of media are, and what they do to diffuse light.
 ///
@@ -29,12 +31,13 @@ class Boundaries {
   /// `media`: that planes are asked for. The scene must stay.
   Boundaries(const Scene& scene, const std::vector<const Medium*>& media);
 
-  /// The boundaries around x: behind a walk that has come along `direction`, before it, and to four sides. One counts
-  /// less the more it faces as those before it do: where a walk grazes the boundary both are the same.
+  /// The boundaries around x: behind a walk that has come along `direction`, before it, and to four sides
+  /// (add_boundary).
   BoundaryPlanes around(const Vec3& x, const Vec3& direction, const Medium& medium) const;
+  /// The first one along a line through the medium.
+  std::optional<BoundaryPlane> towards(const Ray& line, const Medium& medium) const;
 
  private:
-  std::optional<BoundaryPlane> towards(const Ray& line, const Medium& medium) const;
 
   const Scene& scene_;
   std::vector<float> factors_;        ///< A of each object, seen from inside

@@ -98,12 +98,21 @@ const TableLight::Entry* TableLight::find(const Medium* medium) const {
   return nullptr;
 }
 
+std::optional<BoundaryPlane> TableLight::entry_of(const Stretch& way, const Medium& medium) const {
+  if (!boundaries_) return std::nullopt;
+  constexpr float kInside = 1e-3f;  // of the way: back from there
+  return boundaries_->towards({way.origin + way.direction * (kInside * way.length), -way.direction}, medium);
+}
+
 Spectrum TableLight::source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x,
                                      const Vec3& w, Rng& rng) const {
   const Entry* entry = find(light.medium);
   if (!entry) return Spectrum(0.0f);
-  if (!boundaries.empty())
-    return light.flux * bounded_source_radiance(*entry->scattering, light.way, boundaries, x, w);
+  if (!boundaries.empty()) {
+    BoundaryPlanes planes = boundaries;
+    if (light.entry) add_boundary(*light.entry, planes);
+    return light.flux * bounded_source_radiance(*entry->scattering, light.way, planes, x, w);
+  }
   return light.flux * (entry->scattering
                            ? entry->scattering->source_radiance(light.way, x, w)
                            : walk_source_radiance(*entry->medium, settings_.from_order, light.way, x, w, rng));
@@ -140,11 +149,9 @@ void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const
   if (state.visit_order > 0 || state.throughput.is_black() || !table_.holds(&medium)) return;
   const float length = leg.collides ? length_to_surface(scene_, way, medium, counters_) : way.t_max;
   if (!(length > 0)) return;
-  entered_.push_back({{way.origin, way.direction, length},
-                      state.throughput * (scale_ * roulette_.scale()),
-                      &medium,
-                      state.depth,
-                      state.order});
+  const Stretch stretch{way.origin, way.direction, length};
+  entered_.push_back({stretch, state.throughput * (scale_ * roulette_.scale()), &medium, state.depth, state.order,
+                      table_.entry_of(stretch, medium)});
 }
 
 }  // namespace turbid

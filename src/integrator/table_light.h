@@ -39,6 +39,7 @@ struct EnteringLight {
   Spectrum flux;  ///< that sets out, W
   const Medium* medium;
   int depth, order;  ///< edges and collisions behind
+  std::optional<BoundaryPlane> entry{};  ///< where it has come in, for boundary = image
 };
 
 /// The tables of a scene's media, and what light that has entered brings by them (S1 sect. 4.3).
@@ -72,6 +73,9 @@ class TableLight {
   BoundaryPlanes boundaries_around(const Vec3& x, const Vec3& direction, const Medium& medium) const {
     return boundaries_ ? boundaries_->around(x, direction, medium) : BoundaryPlanes();
   }
+
+  /// Where a way through the medium begins: its boundary there; none where light is not corrected by boundaries.
+  std::optional<BoundaryPlane> entry_of(const Stretch& way, const Medium& medium) const;
 
   /// What scatters at x towards w (unit) for the last time, 1/sr per volume: W/(sr m^3). `rng`: for kModel alone.
   Spectrum source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x, const Vec3& w,
