@@ -88,8 +88,8 @@ double mean_over(size_t shell, const Sector& sector, const Density& density) {
   for (size_t a = 0; a < radial.size(); ++a)
     for (size_t b = 0; b < angular.size(); ++b) {
       const double r = std::lerp(inner, outer, radial.node(a));
-      sum += radial.weight(a) * (outer - inner) * angular.weight(b) * (sector.to - sector.from) * 2 *
-             std::numbers::pi * r * r * density(r, std::lerp(sector.from, sector.to, angular.node(b)));
+      sum += radial.weight(a) * (outer - inner) * angular.weight(b) * (sector.to - sector.from) * 2 * std::numbers::pi *
+             r * r * density(r, std::lerp(sector.from, sector.to, angular.node(b)));
     }
   return sum / volume(shell, sector);
 }
@@ -105,8 +105,8 @@ void print(double g, double albedo, size_t photons) {
   };
   const auto by_table = [&](double r, double cosine) {
     const Vec3 x(Imath::V3d(r * std::sqrt(std::max(0.0, 1 - cosine * cosine)), 0, r * cosine));
-    const double twice = albedo * albedo * static_cast<double>(phase.eval(static_cast<float>(cosine))) *
-                         std::exp(-r) / (r * r);
+    const double twice =
+        albedo * albedo * static_cast<double>(phase.eval(static_cast<float>(cosine))) * std::exp(-r) / (r * r);
     return static_cast<double>(field.density(x, {0, 0, 1})) + twice;
   };
   fmt::print("\ng = {:g}, albedo {:g}: light that leaves collisions of order 2 and more, over that of {} walks\n\n", g,

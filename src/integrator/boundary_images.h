@@ -38,7 +38,6 @@ class Boundaries {
   std::optional<BoundaryPlane> towards(const Ray& line, const Medium& medium) const;
 
  private:
-
   const Scene& scene_;
   std::vector<float> factors_;        ///< A of each object, seen from inside
   std::vector<float> outer_factors_;  ///< ... from outside

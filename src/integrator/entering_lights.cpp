@@ -110,9 +110,8 @@ Spectrum EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, 
     return std::exp(-x) / (distance + group.transport_path);
   };
   Spectrum sum(0.0f);
-  group.tree.draw(seen, count, rng.next_double(), falloff, [&](uint32_t i, double expected) {
-    sum += bring(group.lights[i]) / static_cast<float>(expected);
-  });
+  group.tree.draw(seen, count, rng.next_double(), falloff,
+                  [&](uint32_t i, double expected) { sum += bring(group.lights[i]) / static_cast<float>(expected); });
   return sum;
 }
 

@@ -6,7 +6,7 @@ namespace turbid {
 
 struct EnteringLightsSettings {
   size_t lights = 0;  ///< about so many in a set; 0: by the size of the film
-  int samples = 4;       ///< of these asked for at each place or way
+  int samples = 4;    ///< of these asked for at each place or way
 };
 /// The parameters of tables (table_parameters) and of these settings, and what the latter say.
 std::vector<Parameter> entering_parameters();

@@ -24,7 +24,7 @@ std::vector<Parameter> table_parameters() {
            {.min = 3, .max = 5}},
           word("boundary", "none",
                "what becomes of the table's light at the boundary of the medium: none (it goes on as if the medium had "
-               "no end), image (a mirrored source at the boundary next to the sensor's path corrects it)",
+               "no end), image (mirrored sources at the boundaries around correct it)",
                {"none", "image"})};
 }
 

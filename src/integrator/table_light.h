@@ -38,7 +38,7 @@ struct EnteringLight {
   Stretch way;    ///< up to the next surface
   Spectrum flux;  ///< that sets out, W
   const Medium* medium;
-  int depth, order;  ///< edges and collisions behind
+  int depth, order;                      ///< edges and collisions behind
   std::optional<BoundaryPlane> entry{};  ///< where it has come in, for boundary = image
 };
 

@@ -139,7 +139,8 @@ TEST(TableLight, LeavesMediaBehindRoughBoundariesToMethodsThatStopThere) {
 // In a box, a walk straight up sees the bottom behind it, and of what is before and beside it what is near enough.
 TEST(TableLight, SeesBoundariesOnAllSides) {
   const std::string box = R"(<shape type="cube"><transform name="to_world"><scale x="2" y="2" z="1"/></transform>
-      <bsdf type="null"/>)" + medium("interior", "10, 10, 10", "0.9, 0.9, 0.9", 0) + "</shape>";
+      <bsdf type="null"/>)" +
+                          medium("interior", "10, 10, 10", "0.9, 0.9, 0.9", 0) + "</shape>";
   LoadedScene loaded = load_scene_from_string(scene(box, "", kPinhole), "test scene", {});
   const Scene built(std::move(loaded.parts));
   const Medium& inside = *built.media().front().medium;
