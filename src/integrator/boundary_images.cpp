@@ -95,7 +95,11 @@ Spectrum bounded_source_radiance(const MultipleScattering& scattering, const Str
   Spectrum result = alone;
   for (const BoundaryPlane& plane : planes) {
     if (result.is_black()) break;
-    const Spectrum bounded = scattering.source_radiance(with_images(light, plane), x, w);
+    // Where the boundary is bent inwards either end may lie outside: then it is the plane that touches that end.
+    BoundaryPlane touching = plane;
+    const float beyond = std::max(dot(light.origin - plane.point, plane.normal), dot(x - plane.point, plane.normal));
+    touching.point += plane.normal * std::max(beyond, 0.0f);
+    const Spectrum bounded = scattering.source_radiance(with_images(light, touching), x, w);
     for (int c = 0; c < kChannels; ++c)
       if (alone[c] > 0) result[c] *= std::pow(bounded[c] / alone[c], plane.share);
   }

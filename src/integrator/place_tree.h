@@ -8,7 +8,7 @@
 namespace turbid {
 
 /// Sources of known strength at known places, drawn in proportion to about what each brings to a point, in time that
-/// grows with the logarithm of their number: a tree of boxes with stochastic descent (Estevez and Kulla 2018).
+/// grows with the logarithm of their number: a tree of boxes with stochastic descent (Estevez & Kulla 2018).
 /// Immutable.
 class PlaceTree {
  public:
