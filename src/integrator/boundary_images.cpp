@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/frame.h"
 #include "path/events.h"
 
 namespace turbid {
@@ -31,6 +32,15 @@ float reflection_factor(const Bsdf& bsdf, float side) {
 
 }  // namespace
 
+void add_boundary(const BoundaryPlane& plane, BoundaryPlanes& planes) {
+  constexpr float kLeastShare = 0.05f;
+  float share = plane.share;
+  for (const BoundaryPlane& other : planes) share *= 1 - std::max(0.0f, dot(other.normal, plane.normal));
+  if (share < kLeastShare) return;
+  planes.push_back(plane);
+  planes.back().share = share;
+}
+
 Boundaries::Boundaries(const Scene& scene, const std::vector<const Medium*>& media) : scene_(scene) {
   const auto is_one = [&](const std::shared_ptr<const Medium>& medium) {
     return std::find(media.begin(), media.end(), medium.get()) != media.end();
@@ -55,32 +65,45 @@ std::optional<BoundaryPlane> Boundaries::towards(const Ray& line, const Medium& 
 BoundaryPlanes Boundaries::around(const Vec3& x, const Vec3& direction, const Medium& medium) const {
   BoundaryPlanes planes;
   const auto behind = towards({x, -direction}, medium);
-  if (behind) planes.push_back(*behind);
-  // Beyond this little light comes back: some times the length that diffuse light reaches before it is absorbed, and
-  // the depth from which light that is not comes out.
+  if (!behind) return planes;
+  planes.push_back(*behind);
+  // Beyond this little light comes back: some times the depth from which light that is not absorbed comes out.
   constexpr float kFar = 12;
   const float reduced = medium.sigma_t().mean() - medium.phase().mean_cosine() * medium.sigma_s().mean();
-  auto before = towards({x, direction, kFar / reduced}, medium);
-  if (!before) return planes;
-  if (behind) before->share = std::max(0.0f, -dot(behind->normal, before->normal));
-  if (before->share > 0) planes.push_back(*before);
+  const Frame beside(behind->normal);
+  for (const Vec3& way : {direction, beside.s, -beside.s, beside.t, -beside.t}) {
+    if (const auto plane = towards({x, way, kFar / reduced}, medium)) add_boundary(*plane, planes);
+  }
   return planes;
 }
 
-std::vector<WeightedStretch> images_of(const Stretch& light, const BoundaryPlanes& planes) {
+std::array<WeightedStretch, 4> with_images(const Stretch& light, const BoundaryPlane& plane) {
   // The line of images by two nodes of Gauss-Laguerre quadrature.
   constexpr float kNode[] = {0.5857864f, 3.4142136f}, kWeight[] = {0.8535534f, 0.1464466f};
-  std::vector<WeightedStretch> images = {{light, 1}};
+  const Vec3& n = plane.normal;
+  const Vec3 origin = light.origin - n * (2 * dot(light.origin - plane.point, n));
+  const Vec3 direction = light.direction - n * (2 * dot(light.direction, n));
+  std::array<WeightedStretch, 4> lights{{{light, 1}, {{origin, direction, light.length}, 1}}};
+  for (size_t i = 0; i < 2; ++i)
+    lights[2 + i] = {{origin + n * (kNode[i] * plane.extrapolation), direction, light.length}, -2 * kWeight[i]};
+  return lights;
+}
+
+Spectrum bounded_source_radiance(const MultipleScattering& scattering, const Stretch& light,
+                                 const BoundaryPlanes& planes, const Vec3& x, const Vec3& w) {
+  const Spectrum alone = scattering.source_radiance(light, x, w);
+  Spectrum result = alone;
   for (const BoundaryPlane& plane : planes) {
-    const Vec3& n = plane.normal;
-    const Vec3 origin = light.origin - n * (2 * dot(light.origin - plane.point, n));
-    const Vec3 direction = light.direction - n * (2 * dot(light.direction, n));
-    images.push_back({{origin, direction, light.length}, plane.share});
-    for (int i = 0; i < 2; ++i)
-      images.push_back(
-          {{origin + n * (kNode[i] * plane.extrapolation), direction, light.length}, -2 * kWeight[i] * plane.share});
+    if (result.is_black()) break;
+    // Where the boundary is bent inwards either end may lie outside: then it is the plane that touches that end.
+    BoundaryPlane touching = plane;
+    const float beyond = std::max(dot(light.origin - plane.point, plane.normal), dot(x - plane.point, plane.normal));
+    touching.point += plane.normal * std::max(beyond, 0.0f);
+    const Spectrum bounded = scattering.source_radiance(with_images(light, touching), x, w);
+    for (int c = 0; c < kChannels; ++c)
+      if (alone[c] > 0) result[c] *= std::pow(bounded[c] / alone[c], plane.share);
   }
-  return images;
+  return result;
 }
 
 }  // namespace turbid

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -11,9 +12,11 @@ namespace turbid {
 struct BoundaryPlane {
   Vec3 point, normal;   ///< normal: unit, out of the medium
   float extrapolation;  ///< how far outside of it the fluence would fall to 0, 2 A D; a length
-  float share = 1;      ///< how much of its images counts
+  float share = 1;      ///< the power to which its factor is raised: 0 counts nothing
 };
 using BoundaryPlanes = std::vector<BoundaryPlane>;
+/// One more, which counts less the more it faces as those before it do: then they are about the same.
+void add_boundary(const BoundaryPlane& plane, BoundaryPlanes& planes);
 
 /// Where the boundaries of media are, and what they do to diffuse light.
 ///
@@ -28,19 +31,25 @@ class Boundaries {
   /// `media`: that planes are asked for. The scene must stay.
   Boundaries(const Scene& scene, const std::vector<const Medium*>& media);
 
-  /// The boundaries behind and before a walk through the medium, seen from x along its direction. That before it counts
-  /// as far as it faces the other: where a walk grazes the boundary both are the same.
+  /// The boundaries around x: behind a walk that has come along `direction`, before it, and to four sides
+  /// (add_boundary).
   BoundaryPlanes around(const Vec3& x, const Vec3& direction, const Medium& medium) const;
-
- private:
+  /// The first one along a line through the medium.
   std::optional<BoundaryPlane> towards(const Ray& line, const Medium& medium) const;
 
+ private:
   const Scene& scene_;
   std::vector<float> factors_;        ///< A of each object, seen from inside
   std::vector<float> outer_factors_;  ///< ... from outside
 };
 
-/// The light of a stretch with its images by the planes. Images of images are left out.
-std::vector<WeightedStretch> images_of(const Stretch& light, const BoundaryPlanes& planes);
+/// The light of a stretch, and its images by a plane.
+std::array<WeightedStretch, 4> with_images(const Stretch& light, const BoundaryPlane& plane);
+
+/// The source radiance of the stretch's light at x towards w (MultipleScattering), times a factor for each plane: what
+/// its images leave of the light. One plane, and planes at right angles that reflect nothing, are so as images and
+/// images of images have it (a Gaussian of space is a product); for others it is a guess that never falls below 0.
+Spectrum bounded_source_radiance(const MultipleScattering& scattering, const Stretch& light,
+                                 const BoundaryPlanes& planes, const Vec3& x, const Vec3& w);
 
 }  // namespace turbid

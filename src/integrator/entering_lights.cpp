@@ -1,6 +1,5 @@
 #include "integrator/entering_lights.h"
 
-#include <array>
 #include <mutex>
 
 #include "core/parallel.h"
@@ -11,12 +10,6 @@ namespace {
 constexpr size_t kGrain = 64;  ///< paths per task
 /// Keep streams apart.
 constexpr uint64_t kEnteringStream = 0x656e746572ull, kRouletteStream = 0x726f756cull, kPilotSet = ~uint64_t{0};
-/// The share of the choice that goes by strength alone: what is expected of a light may be wrong.
-constexpr float kByStrength = 0.1f;
-
-/// So many lights, spread over the set, are considered at one place.
-constexpr size_t kConsidered = 512;
-
 /// Which orders count is for what the light brings to say.
 PathSettings all_orders(PathSettings settings) {
   settings.min_scattering = 0;
@@ -51,8 +44,11 @@ std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, u
 
 std::vector<Parameter> entering_parameters() {
   std::vector<Parameter> parameters = table_parameters();
-  parameters.push_back({"entering_lights", ParameterType::kInteger, "4000",
-                        "about so many ways of light in a set that tables begin with", kAtLeastOne});
+  parameters.push_back({"entering_lights",
+                        ParameterType::kInteger,
+                        "0",
+                        "about so many ways of light in a set that tables begin with; 0: two for each pixel",
+                        {.min = 0}});
   parameters.push_back({"table_samples", ParameterType::kInteger, "4",
                         "of these asked for at each place, or on each way, of the sensor's walks", kAtLeastOne});
   return parameters;
@@ -63,7 +59,8 @@ EnteringLightsSettings entering_settings(const Properties& properties) {
   return {static_cast<size_t>(count("entering_lights")), static_cast<int>(count("table_samples"))};
 }
 
-EnteringLights::Group::Group(const HomogeneousMedium* m) : medium(m) {
+EnteringLights::Group::Group(const HomogeneousMedium* m, std::vector<EnteringLight> entered)
+    : medium(m), lights(std::move(entered)) {
   const float g = m->phase().mean_cosine(), sigma_t = m->sigma_t().mean();
   const float albedo = m->sigma_s().mean() / sigma_t;
   free_path = 1 / sigma_t;
@@ -73,21 +70,25 @@ EnteringLights::Group::Group(const HomogeneousMedium* m) : medium(m) {
     const float a = m->albedo()[c];
     if (a > 0) decay = std::min(decay, m->sigma_t()[c] * std::sqrt(3 * (1 - a) * (1 - g * a)));
   }
-}
-
-void EnteringLights::Group::add(const EnteringLight& light) {
-  lights.push_back(light);
-  places.push_back(light.way.origin + light.way.direction * std::min(light.way.length, transport_path));
-  // Of a short way most comes out again unscattered.
-  strengths.push_back(light.flux.mean() * -std::expm1(-light.way.length / free_path));
+  std::vector<Vec3> places;
+  std::vector<float> strengths;
+  for (const EnteringLight& light : lights) {
+    places.push_back(light.way.origin + light.way.direction * std::min(light.way.length, transport_path));
+    // Of a short way most comes out again unscattered.
+    strengths.push_back(light.flux.mean() * -std::expm1(-light.way.length / free_path));
+  }
+  tree = PlaceTree(places, strengths);
 }
 
 EnteringLights::EnteringLights(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters)
     : table_(plan.table), path_(plan.path) {
-  for (const Medium* medium : table_.media()) groups_.emplace_back(medium->as_homogeneous());
-  for (const EnteringLight& light : trace(plan, paths, set, counters))
-    for (Group& group : groups_)
-      if (group.medium == light.medium) group.add(light);
+  const std::vector<EnteringLight> all = trace(plan, paths, set, counters);
+  for (const Medium* medium : table_.media()) {
+    std::vector<EnteringLight> own;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(own),
+                 [&](const EnteringLight& light) { return light.medium == medium; });
+    groups_.emplace_back(medium->as_homogeneous(), std::move(own));
+  }
 }
 
 size_t EnteringLights::size() const {
@@ -96,38 +97,22 @@ size_t EnteringLights::size() const {
   return sum;
 }
 
-/// Lights are drawn systematically, with probabilities in proportion to what diffusion would bring from about where
-/// each has lost its direction to `seen`, from every so many of the set: bring(light) times the inverse of the expected
-/// number.
+/// Lights are drawn with probabilities in proportion to about what diffusion would bring from where each has lost its
+/// direction to `seen`: bring(light) over the expected number of draws.
 template <class Bring>
 Spectrum EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const {
   const auto found =
       std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) { return group.medium == &medium; });
-  if (found == groups_.end() || found->lights.empty()) return Spectrum(0.0f);
+  if (found == groups_.end()) return Spectrum(0.0f);
   const Group& group = *found;
-  const size_t size = group.lights.size(), stride = (size + kConsidered - 1) / kConsidered;
-  const size_t first = std::min(static_cast<size_t>(rng.next_float() * static_cast<float>(stride)), stride - 1);
-  std::array<float, kConsidered> weights;
-  double near = 0, strength = 0;
-  for (size_t i = first, k = 0; i < size; i += stride, ++k) {
-    const float distance = length(group.places[i] - seen);
-    const float x = group.decay * distance;
-    // exp(-x) / distance, nearly; never 0.
-    weights[k] = group.strengths[i] / ((distance + group.transport_path) * (1 + x * (1 + x * (0.5f + x / 6))));
-    near += static_cast<double>(weights[k]);
-    strength += static_cast<double>(group.strengths[i]);
-  }
-  if (!(near > 0) || !(strength > 0)) return Spectrum(0.0f);
-  const auto by_near = (1 - static_cast<double>(kByStrength)) / near;
-  const auto by_strength = static_cast<double>(kByStrength) / strength;
+  const auto falloff = [&](float distance2) {
+    const float distance = std::sqrt(distance2), x = group.decay * distance;
+    return std::exp(-x) / (distance + group.transport_path);
+  };
   Spectrum sum(0.0f);
-  double next = rng.next_double(), expected = 0;
-  for (size_t i = first, k = 0; i < size; i += stride, ++k) {
-    const double own =
-        count * (static_cast<double>(weights[k]) * by_near + static_cast<double>(group.strengths[i]) * by_strength);
-    for (expected += own; next < expected; ++next) sum += bring(group.lights[i]) / static_cast<float>(own);
-  }
-  return sum * static_cast<float>(stride);
+  group.tree.draw(seen, count, rng.next_double(), falloff,
+                  [&](uint32_t i, double expected) { sum += bring(group.lights[i]) / static_cast<float>(expected); });
+  return sum;
 }
 
 Spectrum EnteringLights::along(const Ray& way, const Medium& medium, const PathState& state, int count,
@@ -152,6 +137,11 @@ Spectrum EnteringLights::at_collision(const CollisionEvent& event, const PathSta
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) {
   constexpr size_t kPilotPaths = 4096;
   constexpr double kLeastPerPath = 0.001;
+  // Small pictures see as much of a medium as large ones; beyond the largest number noise is not the sets'.
+  constexpr size_t kFewest = 4000, kMost = 400'000;
+  if (lights == 0) {
+    lights = std::clamp(2 * pixel_count(plan.scene.film()), kFewest, kMost);
+  }
   SampleCounters counters;
   const double per_path =
       static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).size()) / static_cast<double>(kPilotPaths);

@@ -1,11 +1,12 @@
 #pragma once
+#include "integrator/place_tree.h"
 #include "integrator/table_light.h"
 
 namespace turbid {
 
 struct EnteringLightsSettings {
-  size_t lights = 4000;  ///< about so many in a set
-  int samples = 4;       ///< of these asked for at each place or way
+  size_t lights = 0;  ///< about so many in a set; 0: by the size of the film
+  int samples = 4;    ///< of these asked for at each place or way
 };
 /// The parameters of tables (table_parameters) and of these settings, and what the latter say.
 std::vector<Parameter> entering_parameters();
@@ -41,12 +42,10 @@ class EnteringLights {
   struct Group {
     const HomogeneousMedium* medium;
     std::vector<EnteringLight> lights;
-    std::vector<Vec3> places;  ///< about where each has lost its direction
-    std::vector<float> strengths;
+    PlaceTree tree;                   ///< of about where each has lost its direction
     float free_path, transport_path;  ///< mean ones, of the channels' mean
     float decay;                      ///< 1/length, far away, of the channel that reaches farthest
-    explicit Group(const HomogeneousMedium* m);
-    void add(const EnteringLight& light);
+    Group(const HomogeneousMedium* m, std::vector<EnteringLight> entered);
   };
   template <class Bring>
   Spectrum ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const;
@@ -56,7 +55,8 @@ class EnteringLights {
   std::vector<Group> groups_;
 };
 
-/// How many light paths make about so many entering lights; found by a pilot that depends on the plan alone.
+/// How many light paths make about so many entering lights (0: two for each pixel, which all samples of a set share);
+/// found by a pilot that depends on the plan alone.
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights);
 
 /// The sets of a render, one after the other: samples of all pixels share a set, named by seed and number.

@@ -94,7 +94,9 @@ void ManyLights::prepare_workers(const Scene& scene) {
   own_.lines.max_depth = path_.max_depth;
   if (own_.refraction) scattering_ = std::make_unique<const RefractiveScattering>(scene, *own_.refraction);
   if (own_.table.source != TableSettings::Source::kNone) {
-    table_ = std::make_unique<const TableLight>(scene, own_.table);
+    TableSettings settings = own_.table;
+    settings.behind_rough = false;
+    table_ = std::make_unique<const TableLight>(scene, settings);
     table_->limit(path_);
   }
   plan_.emplace(ShadingPlan{scene, path_, own_.lines, own_.volume_points, own_.light_samples, own_.direct_samples,

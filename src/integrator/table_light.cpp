@@ -30,7 +30,7 @@ std::vector<Parameter> table_parameters() {
            {.min = 3, .max = 5}},
           word("boundary", "none",
                "what becomes of the table's light at the boundary of the medium: none (it goes on as if the medium had "
-               "no end), image (a mirrored source at the boundary next to the sensor's path corrects it)",
+               "no end), image (mirrored sources at the boundaries around correct it)",
                {"none", "image"})};
 }
 
@@ -55,6 +55,19 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
   return settings;
 }
 
+namespace {
+
+/// Some boundary of the medium lets light through in a choice of directions.
+bool has_rough_boundary(const Scene& scene, const Medium* medium) {
+  constexpr lobe::Flags kRough = lobe::kSmooth | lobe::kTransmission;
+  return std::any_of(scene.objects().begin(), scene.objects().end(), [&](const Object& object) {
+    return (object.interior.get() == medium || object.exterior.get() == medium) &&
+           (object.bsdf->flags() & kRough) == kRough;
+  });
+}
+
+}  // namespace
+
 TableLight::TableLight(const Scene& scene, const TableSettings& settings) : settings_(settings) {
   for (const Surroundings& surroundings : scene.media()) {
     const HomogeneousMedium* medium = surroundings.medium->as_homogeneous();
@@ -63,6 +76,10 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
       continue;
     }
     if (medium->sigma_s().is_black()) continue;
+    if (!settings.behind_rough && has_rough_boundary(scene, medium)) {
+      log_warning("multiple scattering behind rough boundaries is left to the method, which stops there");
+      continue;
+    }
     try {
       const bool walks = settings.source == TableSettings::Source::kModel;
       if (walks && medium->albedo().max() > static_cast<float>(kLargestAlbedo))
@@ -103,12 +120,21 @@ const TableLight::Entry* TableLight::find(const Medium* medium) const {
   return nullptr;
 }
 
+std::optional<BoundaryPlane> TableLight::entry_of(const Stretch& way, const Medium& medium) const {
+  if (!boundaries_) return std::nullopt;
+  constexpr float kInside = 1e-3f;  // of the way: back from there
+  return boundaries_->towards({way.origin + way.direction * (kInside * way.length), -way.direction}, medium);
+}
+
 Spectrum TableLight::source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x,
                                      const Vec3& w, Rng& rng) const {
   const Entry* entry = find(light.medium);
   if (!entry) return Spectrum(0.0f);
-  if (!boundaries.empty())
-    return light.flux * entry->scattering->source_radiance(images_of(light.way, boundaries), x, w);
+  if (!boundaries.empty()) {
+    BoundaryPlanes planes = boundaries;
+    if (light.entry) add_boundary(*light.entry, planes);
+    return light.flux * bounded_source_radiance(*entry->scattering, light.way, planes, x, w);
+  }
   return light.flux * (entry->scattering
                            ? entry->scattering->source_radiance(light.way, x, w)
                            : walk_source_radiance(*entry->medium, settings_.from_order, light.way, x, w, rng));
@@ -132,10 +158,7 @@ Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& bou
   const Entry* entry = find(light.medium);
   if (!entry || !counts(light, state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
   const Stretch view{way.origin, way.direction, way.t_max};
-  if (entry->scattering && !boundaries.empty())
-    return state.throughput * light.flux *
-           entry->scattering->radiance(images_of(light.way, boundaries), view, rng.next_float(), 1);
-  if (entry->scattering)
+  if (entry->scattering && boundaries.empty())
     return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);
   const auto at = collide_before(*entry->medium, way.t_max, channel_mix(state.throughput), rng.next_float());
   if (!std::isfinite(at.t) || !(at.pdf_t > 0)) return Spectrum(0.0f);
@@ -148,11 +171,9 @@ void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const
   if (state.visit_order > 0 || state.throughput.is_black() || !table_.holds(&medium)) return;
   const float length = leg.collides ? length_to_surface(scene_, way, medium, counters_) : way.t_max;
   if (!(length > 0)) return;
-  entered_.push_back({{way.origin, way.direction, length},
-                      state.throughput * (scale_ * roulette_.scale()),
-                      &medium,
-                      state.depth,
-                      state.order});
+  const Stretch stretch{way.origin, way.direction, length};
+  entered_.push_back({stretch, state.throughput * (scale_ * roulette_.scale()), &medium, state.depth, state.order,
+                      table_.entry_of(stretch, medium)});
 }
 
 }  // namespace turbid

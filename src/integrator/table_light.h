@@ -27,8 +27,11 @@ struct TableSettings {
   };
   Source source = Source::kNone;
   Mode mode = Mode::kExact;
-  int from_order = 3;        ///< collisions in one visit from which on the table has them: 3, 4 or 5
-  bool images = false;       ///< corrected for boundaries (Boundaries); else the medium has no end
+  int from_order = 3;   ///< collisions in one visit from which on the table has them: 3, 4 or 5
+  bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
+  /// Media whose boundary lets light through in a choice of directions have tables, too. False for methods that stop at
+  /// such a boundary, and do not come to where tables are looked up.
+  bool behind_rough = true;
   TableRequest request;      ///< its folder serves both modes
   QuadtreeSettings photons;  ///< of kSeed; without from_order
 };
@@ -43,7 +46,8 @@ struct EnteringLight {
   Stretch way;    ///< up to the next surface
   Spectrum flux;  ///< that sets out, W
   const Medium* medium;
-  int depth, order;  ///< edges and collisions behind
+  int depth, order;                      ///< edges and collisions behind
+  std::optional<BoundaryPlane> entry{};  ///< where it has come in, for boundary = image
 };
 
 /// The tables of a scene's media, and what light that has entered brings by them (S1 sect. 4.3).
@@ -77,6 +81,9 @@ class TableLight {
   BoundaryPlanes boundaries_around(const Vec3& x, const Vec3& direction, const Medium& medium) const {
     return boundaries_ ? boundaries_->around(x, direction, medium) : BoundaryPlanes();
   }
+
+  /// Where a way through the medium begins: its boundary there; none where light is not corrected by boundaries.
+  std::optional<BoundaryPlane> entry_of(const Stretch& way, const Medium& medium) const;
 
   /// What scatters at x towards w (unit) for the last time, 1/sr per volume: W/(sr m^3). `rng`: for kModel alone.
   Spectrum source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x, const Vec3& w,

@@ -14,7 +14,7 @@ const BoundaryPlane kPlane{Vec3(0, 0, 0.5f), Vec3(0, 0, 1), 0.7f};
 TEST(BoundaryImages, HaveTheMomentsOfTheLineOfImages) {
   double sum = 0, negative = 0, moment = 0, second = 0;
   const float mirrored = 2 * kPlane.point.z - kLight.origin.z;
-  for (const WeightedStretch& image : images_of(kLight, {kPlane})) {
+  for (const WeightedStretch& image : with_images(kLight, kPlane)) {
     sum += static_cast<double>(image.weight);
     EXPECT_EQ(image.stretch.length, kLight.length);
     if (image.weight > 0) continue;
@@ -31,8 +31,7 @@ TEST(BoundaryImages, HaveTheMomentsOfTheLineOfImages) {
 }
 
 TEST(BoundaryImages, AreMirroredAtThePlane) {
-  const std::vector<WeightedStretch> images = images_of(kLight, {kPlane});
-  ASSERT_GE(images.size(), 2u);
+  const auto images = with_images(kLight, kPlane);
   EXPECT_EQ(images[0].stretch.origin, kLight.origin);
   EXPECT_EQ(images[0].weight, 1);
   EXPECT_NEAR(images[1].stretch.origin.z, 2.5f, 1e-6f);

@@ -121,10 +121,10 @@ TEST(TableLight, IntegratorsAgreeOnIt) {
     TableSettings table = settings_for_tests();
     table.images = images;
     const PathSettings path{.min_scattering = 3};
-    const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 5, 1);
-    expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 20, 2), 0.01);
+    const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 6, 1);
+    expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2), 0.01);
     expect_same_light("volpath", vrl, observe_by(bright_ball(false), make_volpath(path, table), 128, 3), 0.03);
-    expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 20, 2, 1.05),
+    expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2, 1.05),
                       0.01, false);
   }
 }
@@ -137,6 +137,46 @@ TEST(TableLight, LeavesLowerOrdersAlone) {
   expect_same_light("volpath", plain, observe_by(bright_ball(true), make_volpath(path, table), 128, 2), 0.03);
   expect_same_light("vrl", plain, observe_by(bright_ball(true), make_vrl(path, table), 16, 3), 0.03);
   expect_same_light("upbp", plain, observe_by(bright_ball(true), make_upbp(path, table), 16, 4), 0.03);
+}
+
+// `vrl` stops at boundaries that scatter light, and would not come to what it leaves to tables behind them.
+TEST(TableLight, LeavesMediaBehindRoughBoundariesToMethodsThatStopThere) {
+  const std::string body = medium("interior", "3, 4, 3.5", "0.9, 0.95, 0.8", 0.3f);
+  const auto media = [&](const std::string& bsdf, bool behind_rough) {
+    LoadedScene loaded = load_scene_from_string(scene(ball("0, 0, 1", 1, bsdf + body), "", kPinhole), "test scene", {});
+    TableSettings settings = settings_for_tests();
+    settings.behind_rough = behind_rough;
+    return TableLight(Scene(std::move(loaded.parts)), settings).media().size();
+  };
+  EXPECT_EQ(media(R"(<bsdf type="roughdielectric"/>)", true), 1u);
+  EXPECT_EQ(media(R"(<bsdf type="roughdielectric"/>)", false), 0u);
+  EXPECT_EQ(media(R"(<bsdf type="dielectric"/>)", false), 1u);
+}
+
+// In a box, a walk straight up sees the bottom behind it, and of what is before and beside it what is near enough.
+TEST(TableLight, SeesBoundariesOnAllSides) {
+  const std::string box = R"(<shape type="cube"><transform name="to_world"><scale x="2" y="2" z="1"/></transform>
+      <bsdf type="null"/>)" +
+                          medium("interior", "10, 10, 10", "0.9, 0.9, 0.9", 0) + "</shape>";
+  LoadedScene loaded = load_scene_from_string(scene(box, "", kPinhole), "test scene", {});
+  const Scene built(std::move(loaded.parts));
+  const Medium& inside = *built.media().front().medium;
+  const Boundaries boundaries(built, {&inside});
+  const auto around = [&](const Vec3& x) { return boundaries.around(x, {0, 0, 1}, inside); };
+  const BoundaryPlanes middle = around({0, 0, -0.9f});
+  ASSERT_EQ(middle.size(), 1u);  // all else is more than 12 mean free paths away
+  EXPECT_NEAR(middle[0].normal.z, -1, 1e-6f);
+  EXPECT_NEAR(middle[0].point.z, -1, 1e-5f);
+  EXPECT_NEAR(middle[0].extrapolation, 2.0f / 30, 1e-5f);
+  EXPECT_EQ(around({0, 0, 0}).size(), 2u);
+  const BoundaryPlanes corner = around({1.9f, 1.8f, 0.5f});
+  ASSERT_EQ(corner.size(), 4u);
+  Vec3 sum(0);
+  for (const BoundaryPlane& plane : corner) {
+    EXPECT_NEAR(plane.share, 1, 1e-5f);
+    sum += plane.normal;
+  }
+  EXPECT_LT(length(sum - Vec3(1, 1, 0)), 1e-5f);
 }
 
 /// A layer of 200 mean free paths' width in even light, seen from above where its edges are far.
