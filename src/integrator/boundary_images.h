@@ -34,6 +34,10 @@ class Boundaries {
   /// The boundaries around x: behind a walk that has come along `direction`, before it, and to four sides
   /// (add_boundary).
   BoundaryPlanes around(const Vec3& x, const Vec3& direction, const Medium& medium) const;
+  /// Nothing stands between two places in a medium.
+  bool lets_see(const Vec3& a, const Vec3& b) const {
+    return !scene_.rays().occluded({a, normalize(b - a), length(b - a)});
+  }
   /// The first one along a line through the medium.
   std::optional<BoundaryPlane> towards(const Ray& line, const Medium& medium) const;
 

@@ -98,40 +98,43 @@ size_t EnteringLights::size() const {
 }
 
 /// Lights are drawn with probabilities in proportion to about what diffusion would bring from where each has lost its
-/// direction to `seen`: bring(light) over the expected number of draws.
+/// direction to `seen`: bring(light, 1 / expected number of draws).
 template <class Bring>
-Spectrum EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const {
+void EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const {
   const auto found =
       std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) { return group.medium == &medium; });
-  if (found == groups_.end()) return Spectrum(0.0f);
+  if (found == groups_.end()) return;
   const Group& group = *found;
   const auto falloff = [&](float distance2) {
     const float distance = std::sqrt(distance2), x = group.decay * distance;
     return std::exp(-x) / (distance + group.transport_path);
   };
-  Spectrum sum(0.0f);
   group.tree.draw(seen, count, rng.next_double(), falloff,
-                  [&](uint32_t i, double expected) { sum += bring(group.lights[i]) / static_cast<float>(expected); });
-  return sum;
+                  [&](uint32_t i, double expected) { bring(group.lights[i], static_cast<float>(1 / expected)); });
 }
 
 Spectrum EnteringLights::along(const Ray& way, const Medium& medium, const PathState& state, int count,
                                Rng& rng) const {
-  if (state.visit_order > 0 || state.throughput.is_black() || !table_.holds(&medium) || !(way.t_max > 0))
-    return Spectrum(0.0f);
+  Spectrum sum(0.0f);
+  if (state.visit_order > 0 || state.throughput.is_black() || !table_.holds(&medium) || !(way.t_max > 0)) return sum;
   const float free_path = 1 / medium.sigma_t().mean();
   const Vec3 seen = way.at(std::min(way.t_max / 2, free_path));
   const auto boundaries = table_.boundaries_around(seen, way.direction, medium);
-  return ask(medium, seen, count, rng,
-             [&](const EnteringLight& light) { return table_.along(light, boundaries, way, state, path_, rng); });
+  ask(medium, seen, count, rng, [&](const EnteringLight& light, float scale) {
+    sum += table_.along(light, boundaries, way, state, path_, rng) * scale;
+  });
+  return sum;
 }
 
-Spectrum EnteringLights::at_collision(const CollisionEvent& event, const PathState& state, int count, Rng& rng) const {
-  if (state.visit_order != 1 || state.throughput.is_black() || !table_.holds(&event.medium)) return Spectrum(0.0f);
+LightByOrder EnteringLights::at_collision(const CollisionEvent& event, const PathState& state, int count,
+                                          Rng& rng) const {
+  LightByOrder sum;
+  if (state.visit_order != 1 || state.throughput.is_black() || !table_.holds(&event.medium)) return sum;
   const auto boundaries = table_.boundaries_around(event.position, event.direction, event.medium);
-  return ask(event.medium, event.position, count, rng, [&](const EnteringLight& light) {
-    return table_.at_collision(light, boundaries, event, state, path_, rng);
+  ask(event.medium, event.position, count, rng, [&](const EnteringLight& light, float scale) {
+    table_.at_collision(light, boundaries, event, state, path_, scale, rng, sum);
   });
+  return sum;
 }
 
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) {

@@ -35,8 +35,8 @@ class EnteringLights {
   /// The table's light along a way of the sensor's walk, of finite length up to the next surface, `state` at its
   /// beginning; black unless it has entered a medium with a table unscattered. Asks `count` lights.
   Spectrum along(const Ray& way, const Medium& medium, const PathState& state, int count, Rng& rng) const;
-  /// The same at a collision, the first one of a visit.
-  Spectrum at_collision(const CollisionEvent& event, const PathState& state, int count, Rng& rng) const;
+  /// All that it brings to a collision, the first one of a visit.
+  LightByOrder at_collision(const CollisionEvent& event, const PathState& state, int count, Rng& rng) const;
 
  private:
   struct Group {
@@ -48,7 +48,7 @@ class EnteringLights {
     Group(const HomogeneousMedium* m, std::vector<EnteringLight> entered);
   };
   template <class Bring>
-  Spectrum ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const;
+  void ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const;
 
   const TableLight& table_;
   const PathSettings& path_;

@@ -39,10 +39,11 @@ class MergingSubpath : public SensorSubpath {
     gatherer_.at(vertex, *sink_, work_);
     if (!entering_) return;
     Rng rng = sampler_.aside(Purpose::kTableAtCollision, event.position, event.direction);
-    sink_->gather({.value = entering_->at_collision(event, state, table_samples_, rng),
-                   .light_vertices = 1,
-                   .sensor_vertices = vertex.depth + 1,
-                   .order = kOrderClasses - 1});
+    const LightByOrder found = entering_->at_collision(event, state, table_samples_, rng);
+    for (int order = 0; order < kOrderClasses; ++order)
+      if (!found.light[order].is_black())
+        sink_->gather(
+            {.value = found.light[order], .light_vertices = 1, .sensor_vertices = vertex.depth + 1, .order = order});
   }
 
  private:

@@ -30,7 +30,8 @@ class TableGatherer : public LightGatherer {
   void at_collision(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
     LightGatherer::at_collision(event, state, traveller);
     Rng rng = sampler_.aside(Purpose::kTableAtCollision, event.position, event.direction);
-    add(kOrderClasses - 1, entering_.at_collision(event, state, table_samples_, rng));
+    const LightByOrder found = entering_.at_collision(event, state, table_samples_, rng);
+    for (int order = 0; order < kOrderClasses; ++order) add(order, found.light[order]);
   }
 
  private:

@@ -7,6 +7,7 @@
 #include "core/log.h"
 #include "gathering/sensor_gatherer.h"
 #include "integrator/walked_scattering.h"
+#include "manylight/segment_pair.h"
 #include "manylight/volume_points.h"
 
 namespace turbid {
@@ -26,8 +27,9 @@ std::vector<Parameter> table_parameters() {
           {"from_order",
            ParameterType::kInteger,
            "3",
-           "collisions in one visit from which on the table has them",
-           {.min = 3, .max = 5}},
+           "collisions in one visit from which on the table has them; 2: those of two collisions are found from what "
+           "the table is fed by, too",
+           {.min = 2, .max = 5}},
           word("boundary", "none",
                "what becomes of the table's light at the boundary of the medium: none (it goes on as if the medium had "
                "no end), image (mirrored sources at the boundaries around correct it)",
@@ -95,9 +97,9 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
 std::unique_ptr<const MultipleScattering> TableLight::find_scattering(const HomogeneousMedium& medium) const {
   if (settings_.mode == TableSettings::Mode::kExact)
     return std::make_unique<const MultipleScattering>(medium, *find_table(medium.phase(), settings_.request),
-                                                      settings_.from_order);
+                                                      table_order());
   QuadtreeSettings photons = settings_.photons;
-  photons.from_order = settings_.from_order;
+  photons.from_order = table_order();
   if (settings_.mode == TableSettings::Mode::kSeedComputed) {
     std::array<PhotonLobes, kSourceKinds> lobes = simulate_photons(medium.phase(), medium.albedo(), photons);
     return std::make_unique<const MultipleScattering>(
@@ -135,28 +137,47 @@ Spectrum TableLight::source_radiance(const EnteringLight& light, const BoundaryP
     if (light.entry) add_boundary(*light.entry, planes);
     return light.flux * bounded_source_radiance(*entry->scattering, light.way, planes, x, w);
   }
-  return light.flux * (entry->scattering
-                           ? entry->scattering->source_radiance(light.way, x, w)
-                           : walk_source_radiance(*entry->medium, settings_.from_order, light.way, x, w, rng));
+  return light.flux * (entry->scattering ? entry->scattering->source_radiance(light.way, x, w)
+                                         : walk_source_radiance(*entry->medium, table_order(), light.way, x, w, rng));
 }
 
-Spectrum TableLight::at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries,
-                                  const CollisionEvent& event, const PathState& state, const PathSettings& path,
-                                  Rng& rng) const {
-  if (light.medium != &event.medium || !counts(light, state.depth, state.order, path)) return Spectrum(0.0f);
+Spectrum TableLight::twice_scattered(const EnteringLight& light, const Vec3& x, const Vec3& w, float u) const {
+  constexpr float kLongest = 40;  // mean free paths: further along nothing sets out any more
+  const HomogeneousMedium& medium = *light.medium->as_homogeneous();
+  const Ray way{light.way.origin, light.way.direction, std::min(light.way.length, kLongest / medium.sigma_t().min())};
+  const PlaceOnSegment place = place_towards(way, x, medium.phase().mean_cosine(), u);
+  const Vec3 y = way.at(place.t), line = x - y;
+  const float distance = length(line);
+  if (!(place.pdf_t > 0) || !(distance > 0)) return Spectrum(0.0f);
+  if (boundaries_ && !boundaries_->lets_see(y, x)) return Spectrum(0.0f);
+  const Vec3 direction = line / distance;
+  const float lobes = medium.phase().eval(dot(way.direction, direction)) * medium.phase().eval(dot(direction, w));
+  return light.flux * medium.transmittance(place.t + distance) * medium.sigma_s() * medium.sigma_s() *
+         static_cast<float>(static_cast<double>(lobes) / (sqr(static_cast<double>(distance)) * place.pdf_t));
+}
+
+void TableLight::at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
+                              const PathState& state, const PathSettings& path, float scale, Rng& rng,
+                              LightByOrder& sum) const {
+  if (light.medium != &event.medium) return;
   // The walk's own albedo is in the table too: what remains is transmittance over density.
   const Spectrum sigma_s = event.medium.sigma_s_at(event.position);
-  const Spectrum source = source_radiance(light, boundaries, event.position, -event.direction, rng);
-  Spectrum result(0.0f);
-  for (int c = 0; c < kChannels; ++c)
-    if (sigma_s[c] > 0) result[c] = state.throughput[c] * source[c] / sigma_s[c];
-  return result;
+  const auto add = [&](int collisions, const Spectrum& source) {
+    Spectrum value(0.0f);
+    for (int c = 0; c < kChannels; ++c)
+      if (sigma_s[c] > 0) value[c] = scale * state.throughput[c] * source[c] / sigma_s[c];
+    sum.add(light.order + state.order - 1 + collisions, value);
+  };
+  if (settings_.from_order == 2 && counts(light, 2, state.depth, state.order, path))
+    add(2, twice_scattered(light, event.position, -event.direction, rng.next_float()));
+  if (counts(light, table_order(), state.depth, state.order, path))
+    add(table_order(), source_radiance(light, boundaries, event.position, -event.direction, rng));
 }
 
 Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way,
                            const PathState& state, const PathSettings& path, Rng& rng) const {
   const Entry* entry = find(light.medium);
-  if (!entry || !counts(light, state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
+  if (!entry || !counts(light, table_order(), state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
   const Stretch view{way.origin, way.direction, way.t_max};
   if (entry->scattering && boundaries.empty())
     return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);

@@ -27,7 +27,9 @@ struct TableSettings {
   };
   Source source = Source::kNone;
   Mode mode = Mode::kExact;
-  int from_order = 3;   ///< collisions in one visit from which on the table has them: 3, 4 or 5
+  /// Collisions in one visit from which on the table has them: 3, 4 or 5. 2: those of two collisions, too, are found
+  /// from the light that has entered, by a place on its way.
+  int from_order = 3;
   bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
   /// Media whose boundary lets light through in a choice of directions have tables, too. False for methods that stop at
   /// such a boundary, and do not come to where tables are looked up.
@@ -48,6 +50,12 @@ struct EnteringLight {
   const Medium* medium;
   int depth, order;                      ///< edges and collisions behind
   std::optional<BoundaryPlane> entry{};  ///< where it has come in, for boundary = image
+};
+
+/// Light by class of order, the last one for all higher ones.
+struct LightByOrder {
+  Spectrum light[kOrderClasses] = {Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f), Spectrum(0.0f)};
+  void add(int order, const Spectrum& value) { light[std::min(order, kOrderClasses - 1)] += value; }
 };
 
 /// The tables of a scene's media, and what light that has entered brings by them (S1 sect. 4.3).
@@ -85,15 +93,18 @@ class TableLight {
   /// Where a way through the medium begins: its boundary there; none where light is not corrected by boundaries.
   std::optional<BoundaryPlane> entry_of(const Stretch& way, const Medium& medium) const;
 
-  /// What scatters at x towards w (unit) for the last time, 1/sr per volume: W/(sr m^3). `rng`: for kModel alone.
+  /// What scatters at x towards w (unit) for the last time, three times and more, 1/sr per volume: W/(sr m^3). `rng`:
+  /// for kModel alone.
   Spectrum source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x, const Vec3& w,
                            Rng& rng) const;
 
-  /// The same at the first collision of a visit of the sensor's walk, times what the walk makes of it; black in another
-  /// medium, and where even the shortest path of the sum is longer than `path` allows.
-  Spectrum at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
-                        const PathState& state, const PathSettings& path, Rng& rng) const;
-  /// Along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its beginning.
+  /// Adds `scale` times all that the light brings to the first collision of a visit of the sensor's walk, times what
+  /// the walk makes of it; nothing in another medium, and where even the shortest path of a sum is longer than `path`
+  /// allows.
+  void at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
+                    const PathState& state, const PathSettings& path, float scale, Rng& rng, LightByOrder& sum) const;
+  /// source_radiance along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its
+  /// beginning.
   Spectrum along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way, const PathState& state,
                  const PathSettings& path, Rng& rng) const;
 
@@ -105,11 +116,15 @@ class TableLight {
   const Entry* find(const Medium* medium) const;
   /// Of the table that the settings ask for.
   std::unique_ptr<const MultipleScattering> find_scattering(const HomogeneousMedium& medium) const;
-  /// The shortest paths of the sum, over the sensor's collision of that depth and order, count.
-  bool counts(const EnteringLight& light, int depth, int order, const PathSettings& path) const {
-    return depth <= path.max_depth - light.depth - settings_.from_order &&
-           path.order_counts(light.order + order - 1 + settings_.from_order);
+  int table_order() const { return std::max(settings_.from_order, 3); }
+  /// Paths with so many collisions in the visit, over the sensor's collision of that depth and order, count.
+  static bool counts(const EnteringLight& light, int collisions, int depth, int order, const PathSettings& path) {
+    return depth <= path.max_depth - light.depth - collisions &&
+           path.order_counts(light.order + order - 1 + collisions);
   }
+  /// What scatters at x towards w and once before, somewhere on the light's way: as source_radiance, by one random
+  /// place.
+  Spectrum twice_scattered(const EnteringLight& light, const Vec3& x, const Vec3& w, float u) const;
 
   TableSettings settings_;
   std::vector<Entry> entries_;

@@ -135,7 +135,8 @@ class VirtualLightGatherer : public ShadingRecorder {
     ask_virtual_lights(Vertex(event, state), traveller);
     if (!entering_) return;
     Rng rng = sampler_.aside(Purpose::kTableAtCollision, event.position, event.direction);
-    add(kOrderClasses, entering_->at_collision(event, state, plan_.table_samples, rng));
+    const LightByOrder found = entering_->at_collision(event, state, plan_.table_samples, rng);
+    for (int order = 0; order < kOrderClasses; ++order) add(order, found.light[order]);
   }
   void ask_lights(const CollisionEvent& event, const PathState& state, const Traveller& traveller) {
     ask_lights(state, [&](const PathState& part) { direct_->at_collision(event, part, traveller); });
