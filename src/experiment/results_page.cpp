@@ -173,6 +173,24 @@ std::string ahead_by_relative_error(const std::vector<const MethodResult*>& orde
   return first.value - ahead.value > 2 * std::hypot(first.error, ahead.error) ? least->method.name : "";
 }
 
+/// What to know before believing a rank: pictures too dark or too bright, and those of hardly any samples.
+std::string cautions(const std::vector<const MethodResult*>& order) {
+  constexpr double kFewSamples = 4, kMuch = 0.05, kSure = 3;
+  std::string off, few;
+  const auto add = [](std::string& list, const std::string& name, double value, int digits) {
+    list += fmt::format("{}{} ({:.{}f})", list.empty() ? "" : ", ", name, value, digits);
+  };
+  for (const MethodResult* made : order) {
+    const Estimate& mean = made->score.mean_ratio;
+    if (std::abs(mean.value - 1) > std::max(kMuch, kSure * mean.error)) add(off, made->method.name, mean.value, 2);
+    if (made->score.samples.value < kFewSamples) add(few, made->method.name, made->score.samples.value, 0);
+  }
+  std::string text;
+  if (!off.empty()) text += " Not as bright as the reference, which is 1: " + off + ".";
+  if (!few.empty()) text += " Fewer samples per pixel than 4: " + few + ".";
+  return text;
+}
+
 }  // namespace
 
 std::string with_error(const Estimate& e) {
@@ -226,15 +244,18 @@ ReportVerdict verdict_of(const SceneResult& scene, EqualBy rule) {
   if (const std::string other = ahead_by_relative_error(order, rule); !other.empty())
     verdict.text += " By relMSE, which a few bright pixels do not rule, " + other + " is ahead.";
   if (!never.empty()) verdict.text += " Not there in the time given: " + never + ".";
+  verdict.text += cautions(order);
   return verdict;
 }
 
 Report report_of(const ExperimentResult& result, const std::map<std::string, std::string>& about) {
   const Experiment& experiment = result.experiment;
   Report report{.title = experiment.title};
-  report.subtitle =
-      fmt::format("{}{}{}Compared at {}; {} seeds.", experiment.figure, experiment.figure.empty() ? "" : ". ",
-                  experiment.about.empty() ? "" : experiment.about + " ", describe(result.rule), experiment.seeds);
+  report.subtitle = fmt::format(
+      "{}{}{}Compared at {}; {} seeds.{}", experiment.figure, experiment.figure.empty() ? "" : ". ",
+      experiment.about.empty() ? "" : experiment.about + " ", describe(result.rule), experiment.seeds,
+      result.time_scale < 1 ? fmt::format(" A short run: all times are {:g} of the experiment's.", result.time_scale)
+                            : "");
   for (const SceneResult& scene : result.scenes) {
     report.verdicts.push_back(verdict_of(scene, result.rule.equal));
     report.groups.push_back(group_of(scene, result.rule.equal));

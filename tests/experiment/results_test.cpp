@@ -134,6 +134,18 @@ TEST(Verdicts, SayWhenTheReferenceIsTooNoisy) {
   EXPECT_TRUE(verdict.text.starts_with("the reference's own squared error")) << verdict.text;
 }
 
+TEST(Verdicts, WarnOfBiasAndOfFewSamples) {
+  ExperimentResult result = example();
+  MethodScore &slow = result.scenes[0].methods[0].score, &fast = result.scenes[0].methods[1].score;
+  slow.mean_ratio = {0.77, 0.03};
+  fast.mean_ratio = {0.9, 0.05};  // not sure
+  slow.samples = {1, 0};
+  EXPECT_TRUE(verdict_of(result.scenes[0], EqualBy::kTime)
+                  .text.ends_with("Not as bright as the reference, which is 1: slow (0.77). Fewer samples per pixel "
+                                  "than 4: slow (1)."))
+      << verdict_of(result.scenes[0], EqualBy::kTime).text;
+}
+
 TEST(Verdicts, StandInTheReport) {
   const Report report = report_of(example(), {{"command", "c"}});
   EXPECT_EQ(report.verdicts.size(), 1u);
