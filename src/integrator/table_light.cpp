@@ -49,11 +49,11 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
     properties.refuse("multiple_scattering", "a table goes with single_scattering = path alone");
   settings.images = properties.string("boundary") == "image";
   if (settings.images && source == "model") properties.refuse("boundary", "the model is that of a medium without end");
-  const std::string whole =
-      fmt::format("the table holds all orders from {} on at once (from_order): ", settings.from_order);
-  if (path.max_scattering != PathSettings::kUnlimited && path.max_scattering >= settings.from_order)
+  const int first = settings.table_order();
+  const std::string whole = fmt::format("the table holds all orders from {} on at once (from_order): ", first);
+  if (path.max_scattering != PathSettings::kUnlimited && path.max_scattering >= first)
     properties.refuse("max_scattering", whole + "use a limit below that, or -1");
-  if (path.min_scattering > settings.from_order) properties.refuse("min_scattering", whole + "use a limit up to that");
+  if (path.min_scattering > first) properties.refuse("min_scattering", whole + "use a limit up to that");
   return settings;
 }
 
@@ -97,9 +97,9 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
 std::unique_ptr<const MultipleScattering> TableLight::find_scattering(const HomogeneousMedium& medium) const {
   if (settings_.mode == TableSettings::Mode::kExact)
     return std::make_unique<const MultipleScattering>(medium, *find_table(medium.phase(), settings_.request),
-                                                      table_order());
+                                                      settings_.table_order());
   QuadtreeSettings photons = settings_.photons;
-  photons.from_order = table_order();
+  photons.from_order = settings_.table_order();
   if (settings_.mode == TableSettings::Mode::kSeedComputed) {
     std::array<PhotonLobes, kSourceKinds> lobes = simulate_photons(medium.phase(), medium.albedo(), photons);
     return std::make_unique<const MultipleScattering>(
@@ -137,8 +137,9 @@ Spectrum TableLight::source_radiance(const EnteringLight& light, const BoundaryP
     if (light.entry) add_boundary(*light.entry, planes);
     return light.flux * bounded_source_radiance(*entry->scattering, light.way, planes, x, w);
   }
-  return light.flux * (entry->scattering ? entry->scattering->source_radiance(light.way, x, w)
-                                         : walk_source_radiance(*entry->medium, table_order(), light.way, x, w, rng));
+  return light.flux * (entry->scattering
+                           ? entry->scattering->source_radiance(light.way, x, w)
+                           : walk_source_radiance(*entry->medium, settings_.table_order(), light.way, x, w, rng));
 }
 
 Spectrum TableLight::twice_scattered(const EnteringLight& light, const Vec3& x, const Vec3& w, float u) const {
@@ -170,14 +171,14 @@ void TableLight::at_collision(const EnteringLight& light, const BoundaryPlanes& 
   };
   if (settings_.from_order == 2 && counts(light, 2, state.depth, state.order, path))
     add(2, twice_scattered(light, event.position, -event.direction, rng.next_float()));
-  if (counts(light, table_order(), state.depth, state.order, path))
-    add(table_order(), source_radiance(light, boundaries, event.position, -event.direction, rng));
+  if (counts(light, settings_.table_order(), state.depth, state.order, path))
+    add(settings_.table_order(), source_radiance(light, boundaries, event.position, -event.direction, rng));
 }
 
 Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way,
                            const PathState& state, const PathSettings& path, Rng& rng) const {
   const Entry* entry = find(light.medium);
-  if (!entry || !counts(light, table_order(), state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
+  if (!entry || !counts(light, settings_.table_order(), state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
   const Stretch view{way.origin, way.direction, way.t_max};
   if (entry->scattering && boundaries.empty())
     return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);

@@ -30,6 +30,8 @@ struct TableSettings {
   /// Collisions in one visit from which on the table has them: 3, 4 or 5. 2: those of two collisions, too, are found
   /// from the light that has entered, by a place on its way.
   int from_order = 3;
+  /// The first order that is looked up.
+  int table_order() const { return std::max(from_order, 3); }
   bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
   /// Media whose boundary lets light through in a choice of directions have tables, too. False for methods that stop at
   /// such a boundary, and do not come to where tables are looked up.
@@ -116,7 +118,6 @@ class TableLight {
   const Entry* find(const Medium* medium) const;
   /// Of the table that the settings ask for.
   std::unique_ptr<const MultipleScattering> find_scattering(const HomogeneousMedium& medium) const;
-  int table_order() const { return std::max(settings_.from_order, 3); }
   /// Paths with so many collisions in the visit, over the sensor's collision of that depth and order, count.
   static bool counts(const EnteringLight& light, int collisions, int depth, int order, const PathSettings& path) {
     return depth <= path.max_depth - light.depth - collisions &&
