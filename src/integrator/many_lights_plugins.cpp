@@ -93,8 +93,7 @@ ManyLightsSettings settings_of(const Properties& properties, bool rays) {
   own.refraction = refraction_settings(properties);
   if (!rays) return own;
   own.table = table_settings(properties, path_settings(properties));
-  if (own.table.source != TableSettings::Source::kNone && own.table.from_order < 3)
-    properties.refuse("from_order", "two collisions are what virtual lights find: 3, 4 or 5");
+  own.table.from_order = own.table.table_order();  // two collisions are what ray lights find anyway
   own.entering = entering_settings(properties);
   return own;
 }
