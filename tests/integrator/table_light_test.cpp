@@ -198,6 +198,8 @@ TEST(TableLight, SeesBoundariesOnAllSides) {
     sum += plane.normal;
   }
   EXPECT_LT(length(sum - Vec3(1, 1, 0)), 1e-5f);
+  EXPECT_TRUE(boundaries.lets_see({0, 0, -0.9f}, {1, 1, 0.9f}));
+  EXPECT_FALSE(boundaries.lets_see({0, 0, -0.9f}, {0, 0, 1.5f}));
 }
 
 /// A layer of 200 mean free paths' width in even light, seen from above where its edges are far.
