@@ -73,10 +73,6 @@ std::vector<std::string> missed_light(const IntegratorDescription& description, 
   };
   note(asked.specular_at_delta_light && !has.specular_at_delta_light,
        "the light of point, spot and directional lights that comes through smooth glass or off mirrors", "bdpt");
-  note(asked.specular_at_both_ends && has.specular_at_delta_light && !has.specular_at_both_ends,
-       "what point, spot and directional lights light through smooth glass or off mirrors and the sensor sees through "
-       "them, too",
-       "upbp");
   note(asked.beams && !has.beams, "the light of collimated beams", "bdpt");
   note(asked.specular_at_sensor && !has.specular_at_sensor, "what is seen in mirrors and through smooth glass", "bdpt");
   note(asked.glowing_media && !has.glowing_media, "the light of glowing media", "volpath");
