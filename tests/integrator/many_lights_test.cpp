@@ -140,7 +140,7 @@ TEST(ManyLightsSamplers, NoticeAnError) { expect_all_lights("lamp in fog, any le
 class ManyLightsSamplersEverywhere : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ManyLightsSamplersEverywhere, MakeThePictureOfAllLights) {
-  for (const std::string& way : kWays) expect_all_lights(GetParam(), way, 32, 0.03);
+  for (const std::string& way : kWays) expect_all_lights(GetParam(), way, 128, 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(SlowScenes, ManyLightsSamplersEverywhere,
