@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <algorithm>
 
 #include "core/log.h"
 #include "integrator/gather_pilot.h"
@@ -69,6 +69,13 @@ std::string names_of(const UpbpSettings& settings) {
 
 }  // namespace
 
+size_t fullest_affordable(std::span<const double> products) {
+  const double least = *std::min_element(products.begin(), products.end());
+  size_t chosen = products.size() - 1;
+  while (!(products[chosen] <= kPriceOfFullness * least) && chosen > 0) --chosen;
+  return chosen;
+}
+
 UpbpSettings choose_techniques(const Scene& scene, const PathSettings& path, const UpbpSettings& own, uint64_t seed,
                                const StopFlag& stop) {
   using enum Technique;
@@ -80,12 +87,10 @@ UpbpSettings choose_techniques(const Scene& scene, const PathSettings& path, con
     candidates.push_back(pilot.observe({kJoin, kSurface, kPointPoint, kPointBeam}, own.beam_paths));
     candidates.push_back(pilot.observe_beams({kJoin, kSurface, kPointPoint, kPointBeam, kBeamBeam}));
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (const Candidate& candidate : candidates) least = std::min(least, candidate.product());
-  // Each holds those before it.
-  size_t chosen = candidates.size() - 1;
-  while (!(candidates[chosen].product() <= kPriceOfFullness * least) && chosen > 0) --chosen;
-  const UpbpSettings& settings = candidates[chosen].settings;
+  std::vector<double> products;
+  for (const Candidate& candidate : candidates) products.push_back(candidate.product());
+  const double least = *std::min_element(products.begin(), products.end());
+  const UpbpSettings& settings = candidates[fullest_affordable(products)].settings;
   std::string report;
   for (const Candidate& candidate : candidates)
     report += fmt::format("{}{} {:.2f}", report.empty() ? "" : ", ", names_of(candidate.settings),

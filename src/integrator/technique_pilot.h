@@ -1,7 +1,13 @@
 #pragma once
+#include <span>
+
 #include "integrator/upbp.h"
 
 namespace turbid {
+
+/// The last of growing sets of techniques whose variance times work is little above the least; the first where none is
+/// finite. `products` in the order of the sets, not empty.
+size_t fullest_affordable(std::span<const double> products);
 
 /// Tries growing sets of techniques on a few pixels of a few small images, and chooses the fullest whose variance times
 /// counted work is little above the least, and the number of light paths that leave beams. Weights do not know what

@@ -97,8 +97,8 @@ std::string encode(const char* format, int version, const std::function<void(hid
   }
 }
 
-void decode(std::span<const char> bytes, const std::string& path, const char* format, int version,
-            const std::function<void(hid_t)>& read) {
+void open(std::span<const char> bytes, const std::string& path, const char* format, int version,
+          const std::function<void(hid_t)>& read) {
   const Library library;
   try {
     if (bytes.empty()) throw Refused{"it is empty"};

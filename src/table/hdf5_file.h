@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -101,7 +102,15 @@ std::string encode(const char* format, int version, const std::function<void(hid
 
 /// Calls `read` with the file in these bytes. Throws FileError in the name of `path` when they are damaged, cut off, of
 /// another version or format, or `read` throws Refused.
-void decode(std::span<const char> bytes, const std::string& path, const char* format, int version,
-            const std::function<void(hid_t)>& read);
+void open(std::span<const char> bytes, const std::string& path, const char* format, int version,
+          const std::function<void(hid_t)>& read);
+
+/// What `read` makes of the file in these bytes; see open().
+template <class Read>
+auto decode(std::span<const char> bytes, const std::string& path, const char* format, int version, const Read& read) {
+  std::optional<decltype(read(hid_t{}))> result;
+  open(bytes, path, format, version, [&](hid_t file) { result.emplace(read(file)); });
+  return std::move(*result);
+}
 
 }  // namespace turbid::hdf5

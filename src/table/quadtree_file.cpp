@@ -1,6 +1,5 @@
 #include "table/quadtree_file.h"
 
-#include <optional>
 #include <stdexcept>
 
 #include "table/hdf5_file.h"
@@ -77,9 +76,7 @@ std::string encode_quadtree(const QuadtreeTable& table) {
 }
 
 QuadtreeTable decode_quadtree(std::span<const char> bytes, const std::string& path) {
-  std::optional<QuadtreeTable> table;
-  hdf5::decode(bytes, path, kFormat, kQuadtreeVersion, [&](hid_t file) { table.emplace(read(file)); });
-  return std::move(*table);
+  return hdf5::decode(bytes, path, kFormat, kQuadtreeVersion, read);
 }
 
 }  // namespace turbid

@@ -1,7 +1,5 @@
 #include "table/table_file.h"
 
-#include <optional>
-
 #include "table/hdf5_file.h"
 
 namespace turbid {
@@ -75,9 +73,7 @@ std::string encode_table(const ScatteringTable& table) {
 }
 
 ScatteringTable decode_table(std::span<const char> bytes, const std::string& path) {
-  std::optional<ScatteringTable> table;
-  hdf5::decode(bytes, path, kFormat, kTableVersion, [&](hid_t file) { table.emplace(read_table(file)); });
-  return std::move(*table);
+  return hdf5::decode(bytes, path, kFormat, kTableVersion, read_table);
 }
 
 }  // namespace turbid

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <map>
 #include <tuple>
 
 #include "integrator/agreement.h"
 #include "integrator/suite.h"
+#include "integrator/technique_pilot.h"
 
 namespace turbid::testing {
 namespace {
@@ -154,6 +156,17 @@ TEST(Upbp, KeepsToItsMemory) {
   EXPECT_LT(bytes_of(many + ",memory=1"), 1.05 * kBound);
   EXPECT_GT(bytes_of(many + ",memory=1"), 0.5 * kBound) << "more would fit, with what makes photons searchable";
   expect_bdpt(scene, many + ",memory=1", 4, 1);
+}
+
+/// A fuller set for half as much again, not for more.
+TEST(Upbp, PilotTakesTheFullestSetThatCostsLittleMore) {
+  const auto choice = [](std::vector<double> products) { return fullest_affordable(products); };
+  EXPECT_EQ(choice({1, 1.2, 1.3, 1.49, 1.51}), 3u);
+  EXPECT_EQ(choice({2.7, 1.3, 1, 1.03, 2}), 3u);
+  EXPECT_EQ(choice({1, 9, 9, 9, 9}), 0u);
+  EXPECT_EQ(choice({4, 6, 1.3, 1.4, 1}), 4u);
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(choice({nothing, nothing}), 0u);
 }
 
 // --- what users say
