@@ -2,12 +2,13 @@
 // off in the end. PSNR here has the 99th percentile of the reference as its peak: lamps that are in the picture do not
 // raise it.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <filesystem>
 
 #include "image/film_image.h"
+#include "image/image_file.h"
 #include "image/metrics.h"
 #include "methods.h"
 #include "render/statistics.h"
@@ -17,16 +18,18 @@ namespace {
 
 struct Options {
   std::string scenes = "scenes";
-  std::string only;
+  std::string keep;  ///< folder of the truths' pictures; empty: none is kept
+  std::vector<std::string> methods;
   int size = 128;
   double seconds = 20, reference_seconds = 120;
   bool multiple = false;
 };
 
 struct Subject {
-  std::string file;
+  std::string name, file;
   std::vector<std::string> definitions;
-  std::string seed;  ///< what S1 Table 2 says
+  std::string truth;  ///< the integrator that finds it
+  std::string seed;   ///< what S1 Table 2 says
 };
 
 /// What is rendered pass by pass, and stopped by processor time.
@@ -97,6 +100,12 @@ struct Truth {
     for (size_t i = 0; i < x.size(); ++i) sum += (x[i] - first[i]) * (y[i] - second[i]);
     return decibels(std::max(sum / static_cast<double>(x.size()), 1e-12));
   }
+  /// Of the mean of both: its own noise.
+  double own_psnr() const {
+    double sum = 0;
+    for (size_t i = 0; i < first.size(); ++i) sum += (first[i] - second[i]) * (first[i] - second[i]) / 4;
+    return decibels(std::max(sum / static_cast<double>(first.size()), 1e-12));
+  }
   double mean_ratio(const Image& image) const {
     double sum = 0, all = 0;
     const std::vector<double> values = values_of(image);
@@ -108,14 +117,24 @@ struct Truth {
 void measure(const Subject& subject, const Options& options) {
   const Stage stage(options.scenes + "/" + subject.file, subject.definitions);
   const std::string orders = options.multiple ? ",min_scattering=3" : "";
-  Run first(stage, "volpath" + orders, 1001), second(stage, "volpath" + orders, 1002);
-  first.render_until(options.reference_seconds / 2);
-  second.render_until(options.reference_seconds / 2);
-  const Truth truth(first.image(), second.image());
+  const auto half = [&](uint64_t seed) {
+    const std::string kept =
+        options.keep.empty() ? ""
+                             : fmt::format("{}/{}_{}_{}_{}_{}.exr", options.keep, subject.name, options.size,
+                                           options.multiple ? "multiple" : "all", options.reference_seconds, seed);
+    if (!kept.empty() && std::filesystem::exists(kept)) return read_exr(kept);
+    Run run(stage, subject.truth + orders, seed);
+    run.render_until(options.reference_seconds / 2);
+    if (!kept.empty()) write_exr(kept, run.image());
+    return run.image();
+  };
+  const Image first = half(1001), second = half(1002);
+  const Truth truth(first, second);
   fmt::print(
-      "\n{}, {}; truth by volpath, {} samples; S1: {}\n\n| method | {} | mean | cap, dB |\n| --- |{} --- | --- |\n",
-      subject.file, options.multiple ? "orders from 3 on" : "all light", first.samples() + second.samples(),
-      subject.seed,
+      "\n{}, {}; truth by {}, {:.4g} s, {:.1f} dB; S1: {}\n\n| method | {} | mean | cap, dB |\n| --- |{} --- | --- "
+      "|\n",
+      subject.name, options.multiple ? "orders from 3 on" : "all light", subject.truth, options.reference_seconds,
+      truth.own_psnr(), subject.seed,
       [&] {
         std::string head;
         for (double t = options.seconds / 8; t <= options.seconds; t *= 2)
@@ -123,12 +142,7 @@ void measure(const Subject& subject, const Options& options) {
         return head;
       }(),
       " --- | --- | --- | --- |");
-  const std::string table = ",multiple_scattering=table";
-  const std::string upbp = "upbp,techniques=bpt+surf+pb2d";
-  for (const std::string& method :
-       {std::string("volpath"), "volpath" + table, "volpath" + table + ",boundary=image", std::string("vrl"),
-        "vrl" + table, "vrl" + table + ",boundary=image", upbp, upbp + table, upbp + table + ",boundary=image"}) {
-    if (!options.only.empty() && method.find(options.only) != 0) continue;
+  for (const std::string& method : options.methods) {
     Run run(stage, method + orders, 1), other(stage, method + orders, 2);
     std::string cells;
     for (double t = options.seconds / 8; t <= options.seconds; t *= 2) {
@@ -152,21 +166,37 @@ int run(int argc, char** argv) {
   CLI::App app(
       "Methods with tables of multiple scattering and without: PSNR over processor time (S1 Table 2, Fig. 27)");
   app.add_option("--scenes", options.scenes, "folder of the scenes");
-  app.add_option("--only", options.only, "methods whose name begins so");
+  app.add_option("--keep", options.keep, "folder in which pictures of the truth stay, to be found again");
+  app.add_option("--method", options.methods, "integrator, may be repeated");
   app.add_option("--size", options.size, "width of pictures");
   app.add_option("--seconds", options.seconds, "processor time of each method, all threads");
   app.add_option("--reference-seconds", options.reference_seconds, "processor time of the truth");
   app.add_flag("--multiple", options.multiple, "orders of scattering from 3 on alone");
   std::string scene;
-  app.add_option("--scene", scene, "bumpy_sphere or candle; empty: both");
+  app.add_option("--scene", scene, "one of them by name; empty: all");
   CLI11_PARSE(app, argc, argv);
+  if (options.methods.empty()) {
+    const std::string table = ",multiple_scattering=table", upbp = "upbp,techniques=bpt+surf+pb2d";
+    for (const std::string& method : {std::string("volpath"), std::string("vrl"), upbp})
+      for (const std::string& kind : {std::string(), table, table + ",boundary=image", table + ",boundary=measured"})
+        options.methods.push_back(method + kind);
+  }
+  const std::string ball = fmt::format("res={}", options.size);
+  const std::vector<std::string> tall = {fmt::format("width={}", options.size),
+                                         fmt::format("height={}", options.size * 5 / 4)};
+  const auto with = [](std::vector<std::string> all, std::initializer_list<const char*> more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const std::string ball_mark = "VRL 34.5 dB, UPBP 35.8 dB in 60 s";
+  const std::string candle_mark = "VRL 37.4 dB, UPBP 37.3 dB in 120 s (another candle)";
   const std::vector<Subject> subjects = {
-      {"bumpy_sphere.xml", {fmt::format("res={}", options.size)}, "VRL 34.5 dB, UPBP 35.8 dB in 60 s"},
-      {"candle.xml",
-       {fmt::format("width={}", options.size), fmt::format("height={}", options.size * 5 / 4)},
-       "VRL 37.4 dB, UPBP 37.3 dB in 120 s (another candle)"}};
+      {"ball_under_lamps", "bumpy_sphere.xml", {ball}, "volpath", ball_mark},
+      {"ball_and_point", "bumpy_sphere.xml", {ball, "light=point"}, "bdpt", ball_mark},
+      {"candle_under_lamps", "candle.xml", tall, "volpath", candle_mark},
+      {"candle_and_bulb", "candle_with_ball.xml", with(tall, {"inside=nothing"}), "bdpt", candle_mark}};
   for (const Subject& subject : subjects)
-    if (scene.empty() || subject.file.find(scene) == 0) measure(subject, options);
+    if (scene.empty() || subject.name == scene) measure(subject, options);
   return 0;
 }
 

@@ -3,13 +3,15 @@
 #include <mutex>
 
 #include "core/parallel.h"
+#include "integrator/boundary_views.h"
 
 namespace turbid {
 namespace {
 
 constexpr size_t kGrain = 64;  ///< paths per task
 /// Keep streams apart.
-constexpr uint64_t kEnteringStream = 0x656e746572ull, kRouletteStream = 0x726f756cull, kPilotSet = ~uint64_t{0};
+constexpr uint64_t kEnteringStream = 0x656e746572ull, kRouletteStream = 0x726f756cull,
+                   kViewStream = 0x76696577ull, kPilotSet = ~uint64_t{0};
 /// Which orders count is for what the light brings to say.
 PathSettings all_orders(PathSettings settings) {
   settings.min_scattering = 0;
@@ -17,9 +19,14 @@ PathSettings all_orders(PathSettings settings) {
   return without_visit_limit(settings);
 }
 
-std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
+struct Traced {
+  std::vector<EnteringLight> lights;
+  std::vector<EnteringLightKeeper::Left> left;
+};
+
+Traced trace(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters) {
   const PathSettings settings = all_orders(plan.path);
-  std::vector<std::vector<EnteringLight>> parts((paths + kGrain - 1) / kGrain);
+  std::vector<Traced> parts((paths + kGrain - 1) / kGrain);
   std::mutex mutex;
   parallel_for(parts.size(), [&](size_t task) {
     SampleCounters own;
@@ -29,14 +36,17 @@ std::vector<EnteringLight> trace(const EnteringLightsPlan& plan, size_t paths, u
     for (size_t path = task * kGrain; path < std::min(paths, (task + 1) * kGrain); ++path) {
       sampler.start(path, set);
       keeper.begin(Rng(hash_counters(plan.seed, kRouletteStream, path, set)));
-      walk.run(plan.sources);
+      walk.run(plan.table.sources());
     }
-    parts[task] = keeper.entered();
+    parts[task] = {keeper.entered(), keeper.left()};
     const std::lock_guard lock(mutex);
     counters.add(own);
   });
-  std::vector<EnteringLight> all;
-  for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+  Traced all;
+  for (const Traced& part : parts) {
+    all.lights.insert(all.lights.end(), part.lights.begin(), part.lights.end());
+    all.left.insert(all.left.end(), part.left.begin(), part.left.end());
+  }
   return all;
 }
 
@@ -47,9 +57,9 @@ std::vector<Parameter> entering_parameters() {
   parameters.push_back({"entering_lights",
                         ParameterType::kInteger,
                         "0",
-                        "about so many ways of light in a set that tables begin with; 0: two for each pixel",
+                        "about so many ways of light in a set that tables begin with; 0: four for each pixel",
                         {.min = 0}});
-  parameters.push_back({"table_samples", ParameterType::kInteger, "4",
+  parameters.push_back({"table_samples", ParameterType::kInteger, "8",
                         "of these asked for at each place, or on each way, of the sensor's walks", kAtLeastOne});
   return parameters;
 }
@@ -82,13 +92,42 @@ EnteringLights::Group::Group(const HomogeneousMedium* m, std::vector<EnteringLig
 
 EnteringLights::EnteringLights(const EnteringLightsPlan& plan, size_t paths, uint64_t set, SampleCounters& counters)
     : table_(plan.table), path_(plan.path) {
-  const std::vector<EnteringLight> all = trace(plan, paths, set, counters);
+  const Traced all = trace(plan, paths, set, counters);
   for (const Medium* medium : table_.media()) {
     std::vector<EnteringLight> own;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(own),
+    std::copy_if(all.lights.begin(), all.lights.end(), std::back_inserter(own),
                  [&](const EnteringLight& light) { return light.medium == medium; });
     groups_.emplace_back(medium->as_homogeneous(), std::move(own));
+    if (!table_.measured()) continue;
+    groups_.back().balance = balance_light(plan.scene, *medium, all.left, hash_counters(plan.seed, kViewStream, set));
   }
+}
+
+LightBalance EnteringLights::balance_light(const Scene& scene, const Medium& medium,
+                                           std::span<const EnteringLightKeeper::Left> left, uint64_t seed) const {
+  constexpr size_t kLeavingPerCell = 16;
+  Bounds3 box;
+  std::set<SurfaceSide> sides;
+  std::vector<LeavingPower> leaving;
+  for (const EnteringLightKeeper::Left& one : left) {
+    if (one.medium != &medium) continue;
+    box.extendBy(one.at);
+    sides.insert(one.side);
+    leaving.push_back(one.light);
+  }
+  const Group* group = find(medium);
+  if (leaving.empty() || !(max_component(box.size()) > 0)) return {};
+  const Ball ball{box.center(), length(box.size()) / 2};
+  const auto prediction = [&](const CollisionEvent& event, const PathState& state, Rng& rng) {
+    constexpr int kAsked = 4;
+    Spectrum sum(0.0f);
+    ask(medium, event.position, kAsked, rng, [&](const EnteringLight& light, float scale) {
+      sum += table_.looked_up(light, {}, event, state, rng) * scale;
+    });
+    return sum;
+  };
+  return LightBalance(leaving, look_into(scene, medium, sides, ball, group->lights.size(), seed, prediction),
+                      leaving.size() / kLeavingPerCell);
 }
 
 size_t EnteringLights::size() const {
@@ -97,13 +136,24 @@ size_t EnteringLights::size() const {
   return sum;
 }
 
+const EnteringLights::Group* EnteringLights::find(const Medium& medium) const {
+  for (const Group& group : groups_)
+    if (group.medium == &medium) return &group;
+  return nullptr;
+}
+
+const LightBalance& EnteringLights::balance_of(const Medium& medium) const {
+  static const LightBalance kNone;
+  const Group* group = find(medium);
+  return group ? group->balance : kNone;
+}
+
 /// Lights are drawn with probabilities in proportion to about what diffusion would bring from where each has lost its
 /// direction to `seen`: bring(light, 1 / expected number of draws).
 template <class Bring>
 void EnteringLights::ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const {
-  const auto found =
-      std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) { return group.medium == &medium; });
-  if (found == groups_.end()) return;
+  const Group* found = find(medium);
+  if (!found) return;
   const Group& group = *found;
   const auto falloff = [&](float distance2) {
     const float distance = std::sqrt(distance2), x = group.decay * distance;
@@ -121,7 +171,7 @@ Spectrum EnteringLights::along(const Ray& way, const Medium& medium, const PathS
   const Vec3 seen = way.at(std::min(way.t_max / 2, free_path));
   const auto boundaries = table_.boundaries_around(seen, way.direction, medium);
   ask(medium, seen, count, rng, [&](const EnteringLight& light, float scale) {
-    sum += table_.along(light, boundaries, way, state, path_, rng) * scale;
+    sum += table_.along(light, boundaries, way, state, path_, balance_of(medium), rng) * scale;
   });
   return sum;
 }
@@ -131,8 +181,9 @@ LightByOrder EnteringLights::at_collision(const CollisionEvent& event, const Pat
   LightByOrder sum;
   if (state.visit_order != 1 || state.throughput.is_black() || !table_.holds(&event.medium)) return sum;
   const auto boundaries = table_.boundaries_around(event.position, event.direction, event.medium);
+  const Spectrum balance = balance_of(event.medium).at(event.position, -event.direction);
   ask(event.medium, event.position, count, rng, [&](const EnteringLight& light, float scale) {
-    table_.at_collision(light, boundaries, event, state, path_, scale, rng, sum);
+    table_.at_collision(light, boundaries, event, state, path_, balance, scale, rng, sum);
   });
   return sum;
 }
@@ -141,13 +192,12 @@ size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) 
   constexpr size_t kPilotPaths = 4096;
   constexpr double kLeastPerPath = 0.001;
   // Small pictures see as much of a medium as large ones; beyond the largest number noise is not the sets'.
-  constexpr size_t kFewest = 4000, kMost = 400'000;
-  if (lights == 0) {
-    lights = std::clamp(2 * pixel_count(plan.scene.film()), kFewest, kMost);
-  }
+  constexpr size_t kFewest = 8000, kFewestMeasured = 32'000, kMost = 400'000;
+  if (lights == 0)
+    lights = std::clamp(4 * pixel_count(plan.scene.film()), plan.table.measured() ? kFewestMeasured : kFewest, kMost);
   SampleCounters counters;
   const double per_path =
-      static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).size()) / static_cast<double>(kPilotPaths);
+      static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).lights.size()) / static_cast<double>(kPilotPaths);
   const double paths = static_cast<double>(lights) / std::max(per_path, kLeastPerPath);
   return std::max<size_t>(1, static_cast<size_t>(std::lround(paths)));
 }

@@ -6,7 +6,7 @@ namespace turbid {
 
 struct EnteringLightsSettings {
   size_t lights = 0;  ///< about so many in a set; 0: by the size of the film
-  int samples = 4;    ///< of these asked for at each place or way
+  int samples = 8;    ///< of these asked for at each place or way
 };
 /// The parameters of tables (table_parameters) and of these settings, and what the latter say.
 std::vector<Parameter> entering_parameters();
@@ -15,7 +15,6 @@ EnteringLightsSettings entering_settings(const Properties& properties);
 /// What walks that make EnteringLights share.
 struct EnteringLightsPlan {
   const Scene& scene;
-  const LightSources& sources;
   const PathSettings& path;  ///< of the picture; light walks on whatever orders count
   const TableLight& table;
   uint64_t seed;
@@ -43,10 +42,16 @@ class EnteringLights {
     const HomogeneousMedium* medium;
     std::vector<EnteringLight> lights;
     PlaceTree tree;                   ///< of about where each has lost its direction
+    LightBalance balance;             ///< of their light
     float free_path, transport_path;  ///< mean ones, of the channels' mean
     float decay;                      ///< 1/length, far away, of the channel that reaches farthest
     Group(const HomogeneousMedium* m, std::vector<EnteringLight> entered);
   };
+  /// Of what leaves the medium, and of what the table says.
+  LightBalance balance_light(const Scene& scene, const Medium& medium, std::span<const EnteringLightKeeper::Left> left,
+                             uint64_t seed) const;
+  const Group* find(const Medium& medium) const;
+  const LightBalance& balance_of(const Medium& medium) const;
   template <class Bring>
   void ask(const Medium& medium, const Vec3& seen, int count, Rng& rng, const Bring& bring) const;
 

@@ -114,7 +114,7 @@ bool ManyLights::prepare_round(const Scene& scene, uint64_t seed, uint64_t index
   if (table_) {
     lights.known_media = table_->media();
     lights.joined_visit_order = table_->from_order() - 3;
-    entering.emplace(EnteringLightsPlan{scene, *sources_, path_, *table_, seed});
+    entering.emplace(EnteringLightsPlan{scene, path_, *table_, seed});
   }
   if (paths_ == 0 || paths_seed_ != seed) {
     paths_ = paths_for_lights(lights, own_.lights);

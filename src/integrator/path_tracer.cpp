@@ -68,7 +68,7 @@ PixelSample PathTracer::trace_with_table(const Scene& scene, const SensorRay& ca
 /// With tables, in parts whose samples share a set of entering lights.
 bool PathTracer::render_pass(const Scene& scene, const Pass& pass, Film& film, const StopFlag& stop) {
   if (!table_) return SamplingIntegrator::render_pass(scene, pass, film, stop);
-  const EnteringLightsPlan plan{scene, *sources_, settings_, *table_, pass.seed};
+  const EnteringLightsPlan plan{scene, settings_, *table_, pass.seed};
   const uint64_t end = pass.first_sample + pass.sample_count;
   for (uint64_t first = pass.first_sample; first < end;) {
     const uint64_t next = std::min(end, (EnteringLightSets::set_of(first) + 1) * EnteringLightSets::kReuse);
@@ -88,7 +88,6 @@ void PathTracer::prepare(const Scene& scene, uint64_t, const StopFlag&) {
   table_ = std::make_unique<const TableLight>(scene, table_settings_);
   table_->limit(settings_);
   entering_.clear();
-  sources_ = std::make_unique<const LightSources>(scene, true);
 }
 
 IntegratorPlugin path_row() {

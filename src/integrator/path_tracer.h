@@ -56,7 +56,6 @@ class PathTracer : public SamplingIntegrator {
   // Made by prepare().
   std::unique_ptr<const RefractiveScattering> scattering_;
   std::unique_ptr<const TableLight> table_;  ///< null: paths find all light
-  std::unique_ptr<const LightSources> sources_;
   EnteringLightSets entering_;
 };
 

@@ -32,8 +32,9 @@ std::vector<Parameter> table_parameters() {
            {.min = 2, .max = 5}},
           word("boundary", "none",
                "what becomes of the table's light at the boundary of the medium: none (it goes on as if the medium had "
-               "no end), image (mirrored sources at the boundaries around correct it)",
-               {"none", "image"})};
+               "no end), image (mirrored sources at the boundaries around correct it), measured (weighed against what "
+               "walks from the lights bring out of each part of the medium)",
+               {"none", "image", "measured"})};
 }
 
 TableSettings table_settings(const Properties& properties, const PathSettings& path) {
@@ -48,7 +49,9 @@ TableSettings table_settings(const Properties& properties, const PathSettings& p
   if (properties.string("single_scattering") == "refractive")
     properties.refuse("multiple_scattering", "a table goes with single_scattering = path alone");
   settings.images = properties.string("boundary") == "image";
-  if (settings.images && source == "model") properties.refuse("boundary", "the model is that of a medium without end");
+  settings.measured = properties.string("boundary") == "measured";
+  if ((settings.images || settings.measured) && source == "model")
+    properties.refuse("boundary", "the model is that of a medium without end");
   const int first = settings.table_order();
   const std::string whole = fmt::format("the table holds all orders from {} on at once (from_order): ", first);
   if (path.max_scattering != PathSettings::kUnlimited && path.max_scattering >= first)
@@ -66,6 +69,18 @@ bool has_rough_boundary(const Scene& scene, const Medium* medium) {
     return (object.interior.get() == medium || object.exterior.get() == medium) &&
            (object.bsdf->flags() & kRough) == kRough;
   });
+}
+
+/// One around the boundary of each medium that has an inside.
+std::vector<Ball> balls_around(const Scene& scene, const std::vector<const Medium*>& media) {
+  std::vector<Ball> balls;
+  for (const Medium* medium : media) {
+    Bounds3 box;
+    for (const Object& object : scene.objects())
+      if (object.bounds_media && object.interior.get() == medium) box.extendBy(object.shape->bounds());
+    if (!box.isEmpty()) balls.push_back({box.center(), length(box.size()) / 2});
+  }
+  return balls;
 }
 
 }  // namespace
@@ -92,6 +107,7 @@ TableLight::TableLight(const Scene& scene, const TableSettings& settings) : sett
     }
   }
   if (settings.images) boundaries_.emplace(scene, media());
+  sources_.emplace(scene, true, balls_around(scene, media()));
 }
 
 std::unique_ptr<const MultipleScattering> TableLight::find_scattering(const HomogeneousMedium& medium) const {
@@ -157,35 +173,43 @@ Spectrum TableLight::twice_scattered(const EnteringLight& light, const Vec3& x, 
          static_cast<float>(static_cast<double>(lobes) / (sqr(static_cast<double>(distance)) * place.pdf_t));
 }
 
-void TableLight::at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
-                              const PathState& state, const PathSettings& path, float scale, Rng& rng,
-                              LightByOrder& sum) const {
-  if (light.medium != &event.medium) return;
-  // The walk's own albedo is in the table too: what remains is transmittance over density.
+Spectrum TableLight::seen_by(const PathState& state, const CollisionEvent& event, const Spectrum& source) {
   const Spectrum sigma_s = event.medium.sigma_s_at(event.position);
-  const auto add = [&](int collisions, const Spectrum& source) {
-    Spectrum value(0.0f);
-    for (int c = 0; c < kChannels; ++c)
-      if (sigma_s[c] > 0) value[c] = scale * state.throughput[c] * source[c] / sigma_s[c];
-    sum.add(light.order + state.order - 1 + collisions, value);
-  };
+  Spectrum value(0.0f);
+  for (int c = 0; c < kChannels; ++c)
+    if (sigma_s[c] > 0) value[c] = state.throughput[c] * source[c] / sigma_s[c];
+  return value;
+}
+
+Spectrum TableLight::looked_up(const EnteringLight& light, const BoundaryPlanes& boundaries,
+                               const CollisionEvent& event, const PathState& state, Rng& rng) const {
+  return seen_by(state, event, source_radiance(light, boundaries, event.position, -event.direction, rng));
+}
+
+void TableLight::at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
+                              const PathState& state, const PathSettings& path, const Spectrum& balance, float scale,
+                              Rng& rng, LightByOrder& sum) const {
+  if (light.medium != &event.medium) return;
+  const int before = light.order + state.order - 1;
   if (settings_.from_order == 2 && counts(light, 2, state.depth, state.order, path))
-    add(2, twice_scattered(light, event.position, -event.direction, rng.next_float()));
+    sum.add(before + 2,
+            seen_by(state, event, twice_scattered(light, event.position, -event.direction, rng.next_float())) * scale);
   if (counts(light, settings_.table_order(), state.depth, state.order, path))
-    add(settings_.table_order(), source_radiance(light, boundaries, event.position, -event.direction, rng));
+    sum.add(before + settings_.table_order(), looked_up(light, boundaries, event, state, rng) * balance * scale);
 }
 
 Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way,
-                           const PathState& state, const PathSettings& path, Rng& rng) const {
+                           const PathState& state, const PathSettings& path, const LightBalance& balance,
+                           Rng& rng) const {
   const Entry* entry = find(light.medium);
   if (!entry || !counts(light, settings_.table_order(), state.depth + 1, state.order + 1, path)) return Spectrum(0.0f);
   const Stretch view{way.origin, way.direction, way.t_max};
-  if (entry->scattering && boundaries.empty())
+  if (entry->scattering && boundaries.empty() && !settings_.measured)
     return state.throughput * light.flux * entry->scattering->radiance(light.way, view, rng.next_float(), 1);
   const auto at = collide_before(*entry->medium, way.t_max, channel_mix(state.throughput), rng.next_float());
   if (!std::isfinite(at.t) || !(at.pdf_t > 0)) return Spectrum(0.0f);
   return state.throughput * entry->medium->transmittance(at.t) / at.pdf_t *
-         source_radiance(light, boundaries, way.at(at.t), -way.direction, rng);
+         source_radiance(light, boundaries, way.at(at.t), -way.direction, rng) * balance.at(way.at(at.t), -way.direction);
 }
 
 void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const PathState& state,
@@ -196,6 +220,12 @@ void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const
   const Stretch stretch{way.origin, way.direction, length};
   entered_.push_back({stretch, state.throughput * (scale_ * roulette_.scale()), &medium, state.depth, state.order,
                       table_.entry_of(stretch, medium)});
+}
+
+void EnteringLightKeeper::left_medium(const Object& object, const SurfacePoint& point, const Vec3& given,
+                                      const PathState& state) {
+  if (!table_.measured() || state.visit_order < table_.table_order() || !table_.holds(last_medium_)) return;
+  left_.push_back({last_medium_, point.p, {&object, dot(given, point.ng) > 0}, {last_, last_direction_, state.throughput * (scale_ * roulette_.scale())}});
 }
 
 }  // namespace turbid

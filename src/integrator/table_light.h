@@ -3,7 +3,9 @@
 #include <vector>
 
 #include "integrator/boundary_images.h"
+#include "integrator/boundary_views.h"
 #include "integrator/integrator_plugin.h"
+#include "path/light_sources.h"
 #include "path/path_settings.h"
 #include "path/visit_roulette.h"
 #include "path/walk.h"
@@ -32,7 +34,8 @@ struct TableSettings {
   int from_order = 3;
   /// The first order that is looked up.
   int table_order() const { return std::max(from_order, 3); }
-  bool images = false;  ///< corrected for boundaries (Boundaries); else the medium has no end
+  bool images = false;    ///< corrected for boundaries (Boundaries); else the medium has no end
+  bool measured = false;  ///< weighed against what walks from lights bring out of each part of a medium (LightBalance)
   /// Media whose boundary lets light through in a choice of directions have tables, too. False for methods that stop at
   /// such a boundary, and do not come to where tables are looked up.
   bool behind_rough = true;
@@ -76,6 +79,7 @@ class TableLight {
   TableLight(const Scene& scene, const TableSettings& settings);
 
   int from_order() const { return settings_.from_order; }
+  int table_order() const { return settings_.table_order(); }
   /// Those with a table.
   std::vector<const Medium*> media() const;
   /// The medium has a table.
@@ -100,15 +104,24 @@ class TableLight {
   Spectrum source_radiance(const EnteringLight& light, const BoundaryPlanes& boundaries, const Vec3& x, const Vec3& w,
                            Rng& rng) const;
 
+  /// The lights of the scene, half of whose rays are aimed at media with tables.
+  const LightSources& sources() const { return *sources_; }
+  /// Its light is weighed against what walks from lights bring out.
+  bool measured() const { return settings_.measured; }
+
+  /// What scatters at a collision of the sensor's walk towards it by the table, times what the walk makes of it.
+  Spectrum looked_up(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
+                     const PathState& state, Rng& rng) const;
   /// Adds `scale` times all that the light brings to the first collision of a visit of the sensor's walk, times what
-  /// the walk makes of it; nothing in another medium, and where even the shortest path of a sum is longer than `path`
+  /// the walk makes of it, the table's light times `balance`; nothing in another medium, and where even the shortest path of a sum is longer than `path`
   /// allows.
   void at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
-                    const PathState& state, const PathSettings& path, float scale, Rng& rng, LightByOrder& sum) const;
-  /// source_radiance along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its
+                    const PathState& state, const PathSettings& path, const Spectrum& balance, float scale, Rng& rng,
+                    LightByOrder& sum) const;
+  /// source_radiance times the balance along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its
   /// beginning.
   Spectrum along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way, const PathState& state,
-                 const PathSettings& path, Rng& rng) const;
+                 const PathSettings& path, const LightBalance& balance, Rng& rng) const;
 
  private:
   struct Entry {
@@ -123,6 +136,8 @@ class TableLight {
     return depth <= path.max_depth - light.depth - collisions &&
            path.order_counts(light.order + order - 1 + collisions);
   }
+  /// Times the walk's throughput, whose albedo is in the table too: what remains is transmittance over density.
+  static Spectrum seen_by(const PathState& state, const CollisionEvent& event, const Spectrum& source);
   /// What scatters at x towards w and once before, somewhere on the light's way: as source_radiance, by one random
   /// place.
   Spectrum twice_scattered(const EnteringLight& light, const Vec3& x, const Vec3& w, float u) const;
@@ -130,6 +145,7 @@ class TableLight {
   TableSettings settings_;
   std::vector<Entry> entries_;
   std::optional<Boundaries> boundaries_;
+  std::optional<LightSources> sources_;
 };
 
 /// For walks from lights.
@@ -148,9 +164,23 @@ class EnteringLightKeeper : public WalkRecorder {
   /// For a new walk; what has entered before is kept.
   void begin(const Rng& rng) { roulette_.begin(rng); }
   const std::vector<EnteringLight>& entered() const { return entered_; }
+  /// What left media after as many collisions as tables hold.
+  struct Left {
+    const Medium* medium;
+    Vec3 at;
+    SurfaceSide side;
+    LeavingPower light;
+  };
+  /// Where tables are measured; else empty.
+  const std::vector<Left>& left() const { return left_; }
 
   void on_segment(const Ray& way, const Medium& medium, const PathState& state, const Traveller::Leg& leg);
-  void left_collision(const CollisionEvent& event, float, const Vec3&, const PathState& state, const Traveller&) {
+  void left_medium(const Object& object, const SurfacePoint& point, const Vec3& given, const PathState& state);
+  void left_collision(const CollisionEvent& event, float, const Vec3& chosen, const PathState& state,
+                      const Traveller&) {
+    last_ = event.position;
+    last_direction_ = chosen;
+    last_medium_ = &event.medium;
     roulette_.left_collision(event.medium, state);
   }
   bool goes_on() const { return roulette_.goes_on(); }
@@ -162,6 +192,9 @@ class EnteringLightKeeper : public WalkRecorder {
   float scale_;
   VisitRoulette roulette_;
   std::vector<EnteringLight> entered_;
+  std::vector<Left> left_;
+  Vec3 last_{0, 0, 0}, last_direction_{0, 0, 1};  ///< of the last collision, how it was left, and the medium of that
+  const Medium* last_medium_ = nullptr;
 };
 
 }  // namespace turbid

@@ -119,7 +119,7 @@ bool Upbp::prepare_round(const Scene& scene, uint64_t seed, uint64_t index, int,
   if (!finds_scale_ && (leaves_.surfaces || leaves_.inhomogeneous)) trace_photons(scene, seed, index, paths, stop);
   map_.index([&](const HomogeneousMedium& medium) { return gatherer_->beam_radius(medium); });
   if (table_ && !finds_scale_) {
-    const EnteringLightsPlan plan{scene, *sources_, path_, *table_, seed};
+    const EnteringLightsPlan plan{scene, path_, *table_, seed};
     SampleCounters counters;
     entering_.prepare(plan, own_.entering.lights, index, counters);
     add_counters(counters);

@@ -38,6 +38,10 @@ struct WalkRecorder {
                     const Traveller&) {}
   void left_collision(const CollisionEvent&, float /*mu*/, const Vec3& /*chosen*/, const PathState&, const Traveller&) {
   }
+  /// A visit to a medium ends at a point: the walk has gone through the boundary there, which is in the throughput, or
+  /// has come to an opaque surface, which is not. `given` leads back into the medium; the state's visit is the one that
+  /// ends.
+  void left_medium(const Object&, const SurfacePoint&, const Vec3& /*given*/, const PathState&) {}
   /// Asked after each vertex: false ends the walk there.
   bool goes_on() const { return true; }
 };
@@ -64,15 +68,21 @@ class Walk {
   /// Walks from the sensor. The recorder hears nothing of what lies before the near plane. Returns alpha: 1 where the
   /// walk met anything but empty space, media included.
   float run(const SensorRay& camera) requires(kMode == TransportMode::kRadiance) {
+    return run(camera, scene_.sensor_medium(), scene_.sensor_media());
+  }
+  /// The same for a ray that begins elsewhere: in `medium`, or in scenes with priorities inside of the shapes
+  /// `enclosing`.
+  float run(const SensorRay& camera, const Medium* medium, const MediumStack& enclosing) requires(
+      kMode == TransportMode::kRadiance) {
     throughput_ = Spectrum(camera.weight);
     inverse_start_ = eta_scale_ = 1;
     depth_ = order_ = visit_order_ = 0;
     alpha_ = 0;
     if (settings_.max_depth <= 0) return alpha_;
-    traveller_.start(camera.ray, scene_.sensor_medium(), scene_.sensor_media());
+    traveller_.start(camera.ray, medium, enclosing);
     if (camera.near_t > 0) {
-      if (const Medium* medium = traveller_.medium())
-        throughput_ *= medium->transmittance({camera.ray.origin, camera.ray.direction, camera.near_t}, sampler_);
+      if (const Medium* near = traveller_.medium())
+        throughput_ *= near->transmittance({camera.ray.origin, camera.ray.direction, camera.near_t}, sampler_);
       traveller_.skip(camera.near_t);
     }
     recorder_.at_sensor(state(), traveller_);
@@ -175,6 +185,7 @@ class Walk {
     const bool agreed = event.given_local.z * dot(given, point.ng) > 0;
     ++depth_;
     if (agreed && depth_ < settings_.max_depth) recorder_.at_surface(event, state(), traveller_);
+    if (!(bsdf.flags() & lobe::kTransmission)) recorder_.left_medium(object, point, given, state());
     const float u_lobe = sampler_.next_1d();
     const auto sample = bsdf.sample(point, event.given_local, u_lobe, sampler_.next_2d(), kMode);
     const bool straight = sample && sample->flags & lobe::kNull;
@@ -183,8 +194,8 @@ class Walk {
     if (kSeesMedia && straight) {
       --depth_;
       recorder_.passed_surface(bsdf.null_transmission(point, event.given_local));
-      pass_surface(object, point, hit.t);
       throughput_ *= sample->weight;
+      pass_surface(object, point, hit.t);
       return !throughput_.is_black();
     }
     const Vec3 chosen = point.to_world(sample->direction);
@@ -194,6 +205,7 @@ class Walk {
       throughput_ *= adjoint_correction(point, given, chosen);
     else
       eta_scale_ *= sqr(sample->eta);
+    if (sample->flags & lobe::kTransmission) recorder_.left_medium(object, point, given, state());
     if (!(sample->flags & lobe::kReflection && keeps_visit(bsdf))) visit_order_ = 0;
     traveller_.leave(object, point, chosen);
     recorder_.left_surface(event, *sample, chosen, state(), traveller_);
@@ -213,7 +225,9 @@ class Walk {
   void pass_surface(const Object& object, const SurfacePoint& point, float t) {
     const Medium* before = traveller_.medium();
     traveller_.pass_surface(object, point, t);
-    if (traveller_.medium() != before) visit_order_ = 0;
+    if (traveller_.medium() == before) return;
+    recorder_.left_medium(object, point, -traveller_.ray().direction, state());
+    visit_order_ = 0;
   }
 
   /// Russian roulette: survives with the share of the initial flux or importance that is left (but for the scaling of
