@@ -62,6 +62,7 @@ struct ReportVerdict {
 struct Report {
   std::string title, subtitle{};
   std::vector<ReportVerdict> verdicts{};  ///< none: the viewer says what it can from the metrics
+  std::vector<ReportTable> overview{};    ///< tables that stand before the images
   std::vector<ReportGroup> groups{};
   std::vector<ReportPlot> plots{};
   std::vector<ReportTable> tables{};
