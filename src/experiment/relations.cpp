@@ -16,7 +16,7 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 std::string cell(const AgainstBaseline& against) {
   if (!against.factor) return "not reached";
-  std::string text = with_error(*against.factor);
+  std::string text = with_error(*against.factor) + " ×";
   if (against.is_lost_in_reference) text += " (about: below the reference's error)";
   // A factor says nothing of light that is missing.
   constexpr double kMuch = 0.05;
@@ -62,9 +62,11 @@ std::vector<AgainstBaseline> against_baseline(const ExperimentResult& result) {
 
 ReportTable baseline_table(const ExperimentResult& result) {
   const bool by_samples = result.rule.equal == EqualBy::kSamples;
-  ReportTable table{.title = fmt::format("Against {}: its {} over the method’s (above 1: the method is ahead)",
-                                         result.experiment.baseline,
-                                         by_samples ? "error at equal samples" : "time for the same error"),
+  const std::string& baseline = result.experiment.baseline;
+  ReportTable table{.title = by_samples ? fmt::format("Against {}: how many times as large its error is", baseline)
+                                        : fmt::format("Against {}: how many times as long it needs for the same error "
+                                                      "(above 1: the method is ahead)",
+                                                      baseline),
                     .columns = {"method"},
                     .rows = {}};
   for (const SceneResult& scene : result.scenes) table.columns.push_back(scene.scene.name);

@@ -113,7 +113,7 @@ TEST(Relations, SayHowMuchLessTimeThanTheBaseline) {
   EXPECT_EQ(table.columns, (std::vector<std::string>{"method", "fog"}));
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_NE(std::get<std::string>(table.rows[0][1]).find("(about: below the reference's error)"), std::string::npos);
-  EXPECT_TRUE(std::get<std::string>(table.rows[1][1]).ends_with(", mean 0.90"));
+  EXPECT_TRUE(std::get<std::string>(table.rows[1][1]).ends_with(" ×, mean 0.90"));
   result.rule.equal = EqualBy::kSamples;
   EXPECT_NEAR(against_baseline(result)[0].factor->value, 2, 0.05) << "the error itself";
   EXPECT_EQ(to_json(result, {}).at("against_baseline").size(), 2u);
@@ -189,6 +189,21 @@ TEST(Verdicts, WarnOfBiasAndOfFewSamples) {
                   .text.ends_with("Not as bright as the reference, which is 1: slow (0.77). Fewer samples per pixel "
                                   "than 4: slow (1)."))
       << verdict_of(result.scenes[0], EqualBy::kTime).text;
+}
+
+TEST(Glossary, SaysWhatMethodsAre) {
+  ExperimentResult result = example();
+  result.experiment.methods = {{"plain", "volpath,multiple_scattering=path,min_scattering=3"},
+                               {"by table", "volpath,multiple_scattering=table,min_scattering=3"}};
+  const std::vector<ReportTerm> terms = report_of(result, {}).glossary;
+  ASSERT_EQ(terms.size(), 3u + 6u);
+  EXPECT_TRUE(terms[0].text.starts_with("volpath: path tracing with media: ")) << terms[0].text;
+  EXPECT_TRUE(terms[0].text.ends_with(". multiple_scattering = path: by this method.")) << terms[0].text;
+  EXPECT_TRUE(terms[1].text.ends_with(". multiple_scattering = table: looked up, as if the medium had no end."))
+      << terms[1].text;
+  EXPECT_EQ(terms[2].name, "all of them");
+  EXPECT_EQ(terms[2].text, "min_scattering = 3: least collisions in media of a path that counts.");
+  EXPECT_EQ(to_json(report_of(result, {}))["glossary"][1]["name"], "by table");
 }
 
 TEST(Verdicts, StandInTheReport) {
