@@ -74,7 +74,8 @@ TEST(ExperimentFile, SaysWhatIsWrong) {
             "published[0].over: unknown over 'path', did you mean 'paths'?");
   EXPECT_EQ(message_for([](Json& j) { j["published"][0]["measure"] = "rms"; }),
             "published[0].measure: unknown measure 'rms', did you mean 'rmse'?");
-  EXPECT_EQ(message_for([](Json& j) { j["baseline"] = "path"; }), "baseline: unknown baseline 'path', did you mean 'paths'?");
+  EXPECT_EQ(message_for([](Json& j) { j["baseline"] = "path"; }),
+            "baseline: unknown baseline 'path', did you mean 'paths'?");
   const Json pair = {{"method", "paths"}, {"against", "Light tracing!"}};
   EXPECT_EQ(message_for([&](Json& j) { j["pairs"] = Json::array({pair}); }), "");
   EXPECT_EQ(message_for([&](Json& j) {
