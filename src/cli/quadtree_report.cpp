@@ -9,6 +9,7 @@
 #include "image/image_file.h"
 #include "render/statistics.h"
 #include "table/field_plot.h"
+#include "table/sphere_plot.h"
 
 namespace turbid {
 namespace {
@@ -35,6 +36,20 @@ void print_errors(const std::shared_ptr<const QuadtreeTable>& table, const std::
   fmt::print(" {:>+9.2f} {:>9.2f} {:>9.2f} {:>9.2f}\n",
              100 * (energy / measure_moments(exact, field.tree()).energy - 1), 100 * difference.lobes,
              100 * difference.shape, 100 * difference.density);
+}
+
+/// Some lobes over all directions: near the source, behind it, and that of S1 Fig. 8.
+void plot_lobes(const LightField& exact, const QuadtreeField& field, SourceKind kind, const std::string& path) {
+  const std::vector<Quadtree::Place> places = {{0.5f, 2}, {2, 1}, {5, 5}, {3, -2}};
+  write_png(path, plot_spheres(exact, field, places));
+  fmt::print("{:<12} {:<10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>11}   {}\n", "in per cent", "rows of", "rho", "z", "lobes",
+             "shape", "density", "compression", path);
+  for (const Quadtree::Place& place : places) {
+    const LobeDifference difference = compare_lobes_at(exact, field, {place.rho, 0, place.z});
+    fmt::print("{:<12} {:<10} {:>8g} {:>8g} {:>9.2f} {:>9.2f} {:>9.2f} {:>11.2f}\n", "",
+               kind == SourceKind::kRay ? "segment" : "collision", place.rho, place.z, 100 * difference.lobes,
+               100 * difference.shape, 100 * difference.density, 100 * compression_error(exact, place, kind));
+  }
 }
 
 }  // namespace
@@ -87,6 +102,7 @@ void print_quadtree(const PhaseFunction& phase, const Spectrum& albedo, const Qu
     const StretchField stretch(computed, kUnitSegment);
     const LightField& compared = kind == SourceKind::kRay ? static_cast<const LightField&>(stretch) : computed;
     write_png(fmt::format("{}-{}-lobes.png", report.prefix, name), plot_field(compared, report.reach, 640, &field));
+    plot_lobes(compared, field, kind, fmt::format("{}-{}-sphere.png", report.prefix, name));
   }
 }
 

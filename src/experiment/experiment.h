@@ -41,6 +41,12 @@ struct ExperimentMethod {
   std::string integrator;  ///< "TYPE[,key=value]..."
 };
 
+/// Two methods whose pictures are held against each other, too: made with the same random numbers and as many samples,
+/// most of their noise is the same and falls out.
+struct MethodPair {
+  std::string method, against;
+};
+
 /// A number of a publication: `measure` of `method`, divided by that of `over` where there is one (for PSNR: less it).
 struct PublishedNumber {
   std::string scene, method, over, measure;
@@ -68,6 +74,8 @@ struct Experiment {
   int points = 0;  ///< of the curve of error, each at twice the time (or samples) of the one before
   std::vector<ExperimentScene> scenes;
   std::vector<ExperimentMethod> methods;
+  std::string baseline;           ///< the method that the others' times are put in relation to; or none
+  std::vector<MethodPair> pairs;  ///< only at equal samples
   std::vector<PublishedNumber> published;
   std::optional<ProgramSettings> program;  ///< then there are no scenes and methods
 

@@ -92,6 +92,14 @@ void require_known(const JsonObject& json, const std::string& key, const std::st
     json.fail("unknown " + key + " '" + name + "'" + suggestion(name, known), key);
 }
 
+MethodPair read_pair(const JsonObject& json, const std::vector<std::string>& methods) {
+  MethodPair pair{json.text("method"), json.text("against")};
+  require_known(json, "method", pair.method, methods);
+  require_known(json, "against", pair.against, methods);
+  json.finish();
+  return pair;
+}
+
 PublishedNumber read_published(const JsonObject& json, const Experiment& experiment) {
   PublishedNumber number{.scene = json.text("scene"),
                          .method = json.text("method"),
@@ -121,6 +129,12 @@ void read_contest(const JsonObject& json, const fs::path& folder, Experiment& ex
   }
   require_distinct(json, "scenes", experiment.scenes);
   require_distinct(json, "methods", experiment.methods);
+  const std::vector<std::string> methods = names_of(experiment.methods);
+  experiment.baseline = json.text("baseline", "");
+  if (!experiment.baseline.empty()) require_known(json, "baseline", experiment.baseline, methods);
+  for (const JsonObject& pair : json.objects("pairs")) experiment.pairs.push_back(read_pair(pair, methods));
+  if (!experiment.pairs.empty() && experiment.rule.equal != EqualBy::kSamples)
+    json.fail("pictures have noise in common only when compared by equal samples", "pairs");
   for (const JsonObject& number : json.objects("published"))
     experiment.published.push_back(read_published(number, experiment));
 }

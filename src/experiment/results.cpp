@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "experiment/relations.h"
+
 namespace turbid {
 namespace {
 
@@ -126,7 +128,9 @@ Json to_json(const ExperimentResult& result, const std::map<std::string, std::st
           {"time_scale", result.time_scale},
           {"about", about},
           {"scenes", scenes},
-          {"published", published}};
+          {"published", published},
+          {"against_baseline", baseline_json(result)},
+          {"pairs", pairs_json(result)}};
 }
 
 std::string to_csv(const ExperimentResult& result) {

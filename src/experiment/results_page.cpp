@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "experiment/glossary.h"
+#include "experiment/relations.h"
 #include "experiment/results.h"
 #include "render/progress.h"
 
@@ -262,6 +264,9 @@ Report report_of(const ExperimentResult& result, const std::map<std::string, std
     report.plots.push_back(plot_of(scene));
     report.tables.push_back(numbers_of(scene, result.rule.equal));
   }
+  report.glossary = glossary_of(experiment);
+  if (!experiment.baseline.empty()) report.overview.push_back(baseline_table(result));
+  if (!experiment.pairs.empty()) report.overview.push_back(pairs_table(result));
   if (!experiment.published.empty()) report.tables.push_back(published_of(result));
   report.tables.push_back(references_of(result));
   if (ReportTable table = shortcomings_of(result); !table.rows.empty()) report.tables.push_back(std::move(table));

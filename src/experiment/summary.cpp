@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/cache_folder.h"
+#include "experiment/relations.h"
 #include "experiment/results_page.h"
 #include "experiment/run_store.h"
 #include "image/atomic_file.h"
@@ -53,6 +54,23 @@ std::string pictures_of(const ExperimentResult& result, const SceneResult& scene
   return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", names, rule, pictures, errors, means, times);
 }
 
+std::string markdown_of(const ReportTable& table) {
+  std::string text = "\n" + table.title + "\n\n|", rule = "|";
+  for (const std::string& column : table.columns) {
+    text += fmt::format(" {} |", column);
+    rule += " --- |";
+  }
+  text += "\n" + rule + "\n";
+  for (const auto& row : table.rows) {
+    text += "|";
+    for (const ReportTable::Cell& value : row)
+      text += std::holds_alternative<double>(value) ? fmt::format(" {:.4g} |", std::get<double>(value))
+                                                    : fmt::format(" {} |", std::get<std::string>(value));
+    text += "\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string write_summary(const ExperimentResult& result, const std::string& folder) {
@@ -62,6 +80,8 @@ std::string write_summary(const ExperimentResult& result, const std::string& fol
     text += fmt::format("\n**{}**: {}{}{}\n\n{}", scene.scene.name, verdict.winner, verdict.winner.empty() ? "" : ": ",
                         verdict.text, pictures_of(result, scene, folder));
   }
+  if (!result.experiment.baseline.empty()) text += markdown_of(baseline_table(result));
+  if (!result.experiment.pairs.empty()) text += markdown_of(pairs_table(result));
   return text;
 }
 

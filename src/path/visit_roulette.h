@@ -9,7 +9,8 @@ namespace turbid {
 
 /// Ends most walks from lights that have scattered often in one visit to certain media, where what they bring next is
 /// known from elsewhere: what still comes out and goes on is little, far away and dear. One walk in `1 / kShare` goes
-/// on, and weighs so much more.
+/// on, and weighs so much more. A walk is asked once: where light enters again and again, as in milk, a few would else
+/// weigh hundreds of times as much as all others, each in a colour of its own, for channels part on long ways.
 class VisitRoulette {
  public:
   static constexpr float kShare = 0.1f;
@@ -24,7 +25,7 @@ class VisitRoulette {
     ended_ = false;
   }
   void left_collision(const Medium& medium, const PathState& state) {
-    if (state.visit_order != kOften || !holds(&medium)) return;
+    if (scale_ > 1 || state.visit_order != kOften || !holds(&medium)) return;
     if (rng_.next_float() < kShare)
       scale_ /= kShare;
     else

@@ -103,8 +103,8 @@ Json table_json(const ReportTable& table) {
 }  // namespace
 
 Json to_json(const Report& report) {
-  Json verdicts = Json::array(), groups = Json::array(), plots = Json::array(), tables = Json::array(),
-       facts = Json::object();
+  Json verdicts = Json::array(), overview = Json::array(), glossary = Json::array(), groups = Json::array(),
+       plots = Json::array(), tables = Json::array(), facts = Json::object();
   for (const ReportVerdict& v : report.verdicts)
     verdicts.push_back({{"place", v.place}, {"winner", v.winner}, {"text", v.text}});
   for (const ReportGroup& group : report.groups) {
@@ -112,11 +112,14 @@ Json to_json(const Report& report) {
     for (const ReportImage& image : group.images) images.push_back(image_json(image));
     groups.push_back({{"title", group.title}, {"exposure", group.exposure}, {"images", images}});
   }
+  for (const ReportTable& table : report.overview) overview.push_back(table_json(table));
+  for (const ReportTerm& term : report.glossary) glossary.push_back({{"name", term.name}, {"text", term.text}});
   for (const ReportPlot& plot : report.plots) plots.push_back(plot_json(plot));
   for (const ReportTable& table : report.tables) tables.push_back(table_json(table));
   for (const auto& [name, value] : report.facts) facts[name] = value;
   return {{"title", report.title}, {"subtitle", report.subtitle},
-          {"verdicts", verdicts},  {"groups", groups},
+          {"verdicts", verdicts},  {"overview", overview},
+          {"glossary", glossary},  {"groups", groups},
           {"plots", plots},        {"tables", tables},
           {"facts", facts}};
 }

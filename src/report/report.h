@@ -58,10 +58,17 @@ struct ReportVerdict {
   std::string place, winner, text;
 };
 
+/// A name that is used on the page, and what it means.
+struct ReportTerm {
+  std::string name, text;
+};
+
 /// What one HTML page shows: images, plots, tables, and how it all was made.
 struct Report {
   std::string title, subtitle{};
   std::vector<ReportVerdict> verdicts{};  ///< none: the viewer says what it can from the metrics
+  std::vector<ReportTable> overview{};    ///< tables that stand before the images
+  std::vector<ReportTerm> glossary{};
   std::vector<ReportGroup> groups{};
   std::vector<ReportPlot> plots{};
   std::vector<ReportTable> tables{};

@@ -46,11 +46,37 @@ FieldMoments exact_moments(double g, double albedo, SourceKind kind, int from_or
   return {whole, sum.along / whole, sum.square / whole};
 }
 
+LobeDifference compare_lobes_at(const LightField& a, const LightField& b, const Vec3& x) {
+  static const GaussLegendre polar(24);
+  constexpr int kAzimuths = 12;
+  const Vec3 axis(0, 0, 1), radial = normalize(x), across(radial.z, 0, -radial.x);
+  const auto density_a = static_cast<double>(a.density(x, axis)), density_b = static_cast<double>(b.density(x, axis));
+  const double equal = density_b > 1e-6 * density_a ? density_a / density_b : 0;
+  double square = 0, difference = 0, shape_square = 0, shape_difference = 0;
+  for (size_t k = 0; k < polar.size(); ++k)
+    for (int n = 0; n < kAzimuths; ++n) {
+      // Finer outwards, where the light goes.
+      const double v = polar.node(k), theta = std::numbers::pi * v * v;
+      const double solid = polar.weight(k) * v * std::sin(theta);
+      const double phi = std::numbers::pi * (n + 0.5) / kAzimuths;
+      const Vec3 w = radial * static_cast<float>(std::cos(theta)) +
+                     across * static_cast<float>(std::sin(theta) * std::cos(phi)) +
+                     Vec3(0, static_cast<float>(std::sin(theta) * std::sin(phi)), 0);
+      const auto in_a = static_cast<double>(a.eval(x, axis, w)), in_b = static_cast<double>(b.eval(x, axis, w));
+      square += solid * (in_a * in_a + in_b * in_b) / 2;
+      difference += solid * sqr(in_a - in_b);
+      shape_square += solid * (sqr(in_a) + sqr(equal * in_b)) / 2;
+      shape_difference += solid * sqr(in_a - equal * in_b);
+    }
+  const auto root = [](double of, double over) { return over > 0 ? std::sqrt(of / over) : 0; };
+  return {root(difference, square), root(2 * sqr(density_a - density_b), sqr(density_a) + sqr(density_b)),
+          root(shape_difference, shape_square)};
+}
+
 LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid,
                              const std::function<bool(const Vec3&)>& counts) {
-  const GaussLegendre polar(24);
-  constexpr int kAzimuths = 12;
-  double energy = 0, lobes = 0, densities = 0, shapes = 0;
+  double energy = 0;
+  LobeDifference squares;
   for (int i = 0; i < grid.radii(); ++i)
     for (int j = 0; j < grid.angles(); ++j) {
       // Alternately at the middle of a cell and at its corner.
@@ -58,36 +84,17 @@ LobeDifference compare_lobes(const LightField& a, const LightField& b, const Pol
       const double r = grid.radius(i + off), c = grid.cosine(j + off);
       const Vec3 x(Imath::V3d(r * std::sqrt(std::max(0.0, 1 - c * c)), 0, r * c)), axis(0, 0, 1);
       if (counts && !counts(x)) continue;
-      const Vec3 radial = normalize(x);
-      const double density_a = static_cast<double>(a.density(x, axis)),
-                   density_b = static_cast<double>(b.density(x, axis));
-      const double equal = density_b > 1e-6 * density_a ? density_a / density_b : 0;
-      double square = 0, difference = 0, shape_square = 0, shape_difference = 0;
-      for (size_t k = 0; k < polar.size(); ++k)
-        for (int n = 0; n < kAzimuths; ++n) {
-          // Finer outwards, where the light goes.
-          const double v = polar.node(k), theta = std::numbers::pi * v * v;
-          const double solid = polar.weight(k) * v * std::sin(theta);
-          const double phi = std::numbers::pi * (n + 0.5) / kAzimuths;
-          const Vec3 across(radial.z, 0, -radial.x);
-          const Vec3 w = radial * static_cast<float>(std::cos(theta)) +
-                         across * static_cast<float>(std::sin(theta) * std::cos(phi)) +
-                         Vec3(0, static_cast<float>(std::sin(theta) * std::sin(phi)), 0);
-          const double in_a = static_cast<double>(a.eval(x, axis, w)), in_b = static_cast<double>(b.eval(x, axis, w));
-          square += solid * (in_a * in_a + in_b * in_b) / 2;
-          difference += solid * sqr(in_a - in_b);
-          shape_square += solid * (sqr(in_a) + sqr(equal * in_b)) / 2;
-          shape_difference += solid * sqr(in_a - equal * in_b);
-        }
       const double r0 = grid.radius(i), r1 = grid.radius(i + 1);
-      const double mass = density_a * (r1 * r1 * r1 - r0 * r0 * r0) * (grid.cosine(j) - grid.cosine(j + 1));
-      if (!(square > 0 && density_a + density_b > 0)) continue;
+      const double mass = static_cast<double>(a.density(x, axis)) * (r1 * r1 * r1 - r0 * r0 * r0) *
+                          (grid.cosine(j) - grid.cosine(j + 1));
+      if (!(mass > 0)) continue;
+      const LobeDifference here = compare_lobes_at(a, b, x);
       energy += mass;
-      lobes += mass * difference / square;
-      if (shape_square > 0) shapes += mass * shape_difference / shape_square;
-      densities += mass * 2 * sqr(density_a - density_b) / (sqr(density_a) + sqr(density_b));
+      squares.lobes += mass * sqr(here.lobes);
+      squares.shape += mass * sqr(here.shape);
+      squares.density += mass * sqr(here.density);
     }
-  return {std::sqrt(lobes / energy), std::sqrt(densities / energy), std::sqrt(shapes / energy)};
+  return {std::sqrt(squares.lobes / energy), std::sqrt(squares.density / energy), std::sqrt(squares.shape / energy)};
 }
 
 }  // namespace turbid

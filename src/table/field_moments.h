@@ -27,6 +27,8 @@ struct LobeDifference {
   double density = 0;  ///< over all directions together
   double shape = 0;    ///< over directions, of lobes that are made equal in density
 };
+/// In one place: x from the source, whose axis is z; off that.
+LobeDifference compare_lobes_at(const LightField& a, const LightField& b, const Vec3& x);
 /// `counts`: of a place, whether it does.
 LobeDifference compare_lobes(const LightField& a, const LightField& b, const PolarGrid& grid,
                              const std::function<bool(const Vec3&)>& counts = {});

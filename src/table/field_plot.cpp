@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "table/plot_colors.h"
+
 namespace turbid {
 namespace {
 
 const Vec3 kAxis(0, 0, 1);
-const Vec3 kBlue(0.1f, 0.4f, 1), kGreen(0.2f, 0.9f, 0.3f), kGrey(0.45f);
 
 Vec3 place(float along, float across) { return {across, 0, along}; }
-
-/// Black, red, yellow, white.
-Vec3 heat(float x) {
-  return {std::clamp(3 * x, 0.0f, 1.0f), std::clamp(3 * x - 1, 0.0f, 1.0f), std::clamp(3 * x - 2, 0.0f, 1.0f)};
-}
 
 /// Pixels over a part of the plane.
 class Canvas {
@@ -115,8 +111,8 @@ Image plot_field(const LightField& field, double reach, int size, const LightFie
           place((static_cast<float>(i) + 0.5f - kLobes / 2) * step, (kLobes / 2 - static_cast<float>(j) - 0.5f) * step);
       const std::vector<float> values = section_of(field, x);
       const float largest = *std::max_element(values.begin(), values.end());
-      draw_lobe(canvas, values, x, largest, 0.45f * step, kBlue);
-      if (other) draw_lobe(canvas, section_of(*other, x), x, largest, 0.45f * step, kGreen);
+      draw_lobe(canvas, values, x, largest, 0.45f * step, kPlotBlue);
+      if (other) draw_lobe(canvas, section_of(*other, x), x, largest, 0.45f * step, kPlotGreen);
     }
   return canvas.take();
 }
@@ -133,7 +129,7 @@ Image plot_axes(const QuadtreeField& field, double reach, int size) {
         Vec3 x = place((static_cast<float>(2 * i + 1) / kLines - 1) * extent,
                        (static_cast<float>(2 * j + 1) / kLines - 1) * extent);
         for (float done = 0; done < length && canvas.shows(x.z, x.x); done += step) {
-          canvas.dot_at(x.z, x.x, kBlue);
+          canvas.dot_at(x.z, x.x, kPlotBlue);
           x += axis_at(field, x.z, x.x) * (way * step);
         }
       }
@@ -147,8 +143,8 @@ Image plot_cells(const QuadtreeField& field, int width) {
   canvas.draw_density(field);
   for (const Quadtree::Leaf& leaf : tree.leaves())
     for (float done = 0; done < leaf.size; done += 0.5f / scale) {
-      canvas.dot_at(leaf.z + done, leaf.rho, kGrey);
-      canvas.dot_at(leaf.z, leaf.rho + done, kGrey);
+      canvas.dot_at(leaf.z + done, leaf.rho, kPlotGrey);
+      canvas.dot_at(leaf.z, leaf.rho + done, kPlotGrey);
     }
   return canvas.take();
 }

@@ -70,7 +70,7 @@ TEST_F(Table, AsPublished) {
   expect_words(first.output, "segment      0.6000");
   EXPECT_EQ(files(), 2u);  // and the exact one
   for (const std::string source : {"point", "segment"})
-    for (const std::string what : {"axes", "cells", "lobes"})
+    for (const std::string what : {"axes", "cells", "lobes", "sphere"})
       EXPECT_TRUE(std::filesystem::exists(folder_.file("plot-" + source + "-" + what + ".png"))) << source << what;
   expect_words(run({"--mode", "seed", "--photons", "2000", "--g", "0.3", "--albedo", "0.6"}).output, "read in ");
   EXPECT_EQ(run({"--mode", "other", "--g", "0.3"}).exit_code, 2);

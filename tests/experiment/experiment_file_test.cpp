@@ -74,6 +74,20 @@ TEST(ExperimentFile, SaysWhatIsWrong) {
             "published[0].over: unknown over 'path', did you mean 'paths'?");
   EXPECT_EQ(message_for([](Json& j) { j["published"][0]["measure"] = "rms"; }),
             "published[0].measure: unknown measure 'rms', did you mean 'rmse'?");
+  EXPECT_EQ(message_for([](Json& j) { j["baseline"] = "path"; }),
+            "baseline: unknown baseline 'path', did you mean 'paths'?");
+  const Json pair = {{"method", "paths"}, {"against", "Light tracing!"}};
+  EXPECT_EQ(message_for([&](Json& j) { j["pairs"] = Json::array({pair}); }), "");
+  EXPECT_EQ(message_for([&](Json& j) {
+              j["pairs"] = Json::array({pair});
+              j["pairs"][0]["against"] = "path";
+            }),
+            "pairs[0].against: unknown against 'path', did you mean 'paths'?");
+  EXPECT_EQ(message_for([&](Json& j) {
+              j["pairs"] = Json::array({pair});
+              j["compare"] = {{"by", "equal time"}, {"seconds", 1}};
+            }),
+            "pairs: pictures have noise in common only when compared by equal samples");
   EXPECT_NE(message_for([](Json& j) { j["scenes"][0]["file"] = "frog.xml"; }).find("scenes[0].file: there is no scene"),
             std::string::npos);
 }

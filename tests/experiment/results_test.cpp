@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "experiment/markdown_tables.h"
+#include "experiment/relations.h"
 #include "experiment/results_page.h"
 
 namespace turbid {
@@ -95,6 +96,50 @@ TEST(Results, StandBesideWhatWasPublished) {
   EXPECT_FALSE(numbers[2].compared());
 }
 
+TEST(Relations, SayHowMuchLessTimeThanTheBaseline) {
+  ExperimentResult result = example();
+  EXPECT_TRUE(against_baseline(result).empty());
+  EXPECT_TRUE(report_of(result, {}).overview.empty());
+  result.experiment.baseline = "slow";
+  for (const char* name : {"slow", "fast", "as fast"}) result.experiment.methods.push_back({name, "volpath"});
+  result.scenes[0].methods[1].score.is_lost_in_reference = true;
+  result.scenes[0].methods[2].score.mean_ratio = {0.9, 0.01};
+  const std::vector<AgainstBaseline> all = against_baseline(result);
+  ASSERT_EQ(all.size(), 2u) << "the baseline is not held against itself";
+  EXPECT_EQ(all[0].method, "fast");
+  EXPECT_NEAR(all[0].factor->value, 4, 0.1) << "half the error in equal time";
+  EXPECT_GT(all[0].factor->error, 0);
+  const ReportTable table = report_of(result, {}).overview.at(0);
+  EXPECT_EQ(table.columns, (std::vector<std::string>{"method", "fog"}));
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_NE(std::get<std::string>(table.rows[0][1]).find("(about: below the reference's error)"), std::string::npos);
+  EXPECT_TRUE(std::get<std::string>(table.rows[1][1]).ends_with(" ×, mean 0.90"));
+  result.rule.equal = EqualBy::kSamples;
+  EXPECT_NEAR(against_baseline(result)[0].factor->value, 2, 0.05) << "the error itself";
+  EXPECT_EQ(to_json(result, {}).at("against_baseline").size(), 2u);
+}
+
+TEST(Relations, HoldPicturesOfOneSeedAgainstEachOther) {
+  ExperimentResult result = example();
+  result.experiment.pairs = {{"fast", "slow"}};
+  std::vector<MethodResult>& methods = result.scenes[0].methods;
+  for (size_t c = 0; c < 3; ++c) {
+    std::ranges::fill(methods[0].image.channel(c), 0.5f);
+    std::ranges::fill(methods[1].image.channel(c), 0.48f);
+  }
+  std::vector<PairDifference> all = differences_of(result);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NEAR(all[0].rmse, 0.02, 1e-6);
+  EXPECT_NEAR(all[0].psnr, 40, 1e-3) << "the peak is 2, the reference's";
+  EXPECT_NEAR(all[0].mean_ratio, 0.96, 1e-6);
+  EXPECT_TRUE(all[0].equal_samples);
+  methods[0].runs[0].back().samples = 7;
+  EXPECT_FALSE(differences_of(result)[0].equal_samples);
+  EXPECT_EQ(to_json(result, {}).at("pairs")[0].at("against"), "slow");
+  EXPECT_EQ(std::get<std::string>(report_of(result, {}).overview.at(0).rows[0][6]),
+            "not of the same samples: one ran out of time");
+}
+
 TEST(Results, AsCommaSeparatedValues) {
   const std::string text = to_csv(example());
   EXPECT_TRUE(
@@ -144,6 +189,21 @@ TEST(Verdicts, WarnOfBiasAndOfFewSamples) {
                   .text.ends_with("Not as bright as the reference, which is 1: slow (0.77). Fewer samples per pixel "
                                   "than 4: slow (1)."))
       << verdict_of(result.scenes[0], EqualBy::kTime).text;
+}
+
+TEST(Glossary, SaysWhatMethodsAre) {
+  ExperimentResult result = example();
+  result.experiment.methods = {{"plain", "volpath,multiple_scattering=path,min_scattering=3"},
+                               {"by table", "volpath,multiple_scattering=table,min_scattering=3"}};
+  const std::vector<ReportTerm> terms = report_of(result, {}).glossary;
+  ASSERT_EQ(terms.size(), 3u + 6u);
+  EXPECT_TRUE(terms[0].text.starts_with("volpath: path tracing with media: ")) << terms[0].text;
+  EXPECT_TRUE(terms[0].text.ends_with(". multiple_scattering = path: by this method.")) << terms[0].text;
+  EXPECT_TRUE(terms[1].text.ends_with(". multiple_scattering = table: looked up, as if the medium had no end."))
+      << terms[1].text;
+  EXPECT_EQ(terms[2].name, "all of them");
+  EXPECT_EQ(terms[2].text, "min_scattering = 3: least collisions in media of a path that counts.");
+  EXPECT_EQ(to_json(report_of(result, {}))["glossary"][1]["name"], "by table");
 }
 
 TEST(Verdicts, StandInTheReport) {

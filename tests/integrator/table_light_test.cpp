@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "integrator/agreement.h"
+#include "integrator/entering_lights.h"
 #include "integrator/many_lights.h"
 #include "integrator/path_tracer.h"
 #include "integrator/suite.h"
@@ -200,6 +201,43 @@ TEST(TableLight, SeesBoundariesOnAllSides) {
   EXPECT_LT(length(sum - Vec3(1, 1, 0)), 1e-5f);
   EXPECT_TRUE(boundaries.lets_see({0, 0, -0.9f}, {1, 1, 0.9f}));
   EXPECT_FALSE(boundaries.lets_see({0, 0, -0.9f}, {0, 0, 1.5f}));
+}
+
+/// Lights that have entered the ball, in a set for a film of that size; `lights` as the parameter says.
+size_t paths_for_film(int width, int height, size_t lights, bool count = false) {
+  std::string xml = bright_ball(false);
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    xml.replace(xml.find(from), from.size(), to);
+  };
+  replace(integer("width", 16), integer("width", width));
+  replace(integer("height", 16), integer("height", height));
+  LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
+  const Scene built(std::move(loaded.parts));
+  const LightSources sources(built, true);
+  const PathSettings path;
+  const TableLight table(built, settings_for_tests());
+  const EnteringLightsPlan plan{built, sources, path, table, 1};
+  const size_t paths = paths_for_entering_lights(plan, lights);
+  if (!count) return paths;
+  SampleCounters counters;
+  return EnteringLights(plan, paths, 0, counters).size();
+}
+
+// Two for each pixel, but 4000 at least and 400,000 at most: in numbers of light paths, which are made in proportion.
+TEST(EnteringLights, AreAsManyAsTheFilmAsksFor) {
+  const auto near = [](size_t found, double expected) {
+    EXPECT_NEAR(static_cast<double>(found) / expected, 1, 1e-3) << found << " instead of " << expected;
+  };
+  const auto one = static_cast<double>(paths_for_film(16, 16, 100'000)) / 100'000;
+  near(paths_for_film(16, 16, 0), 4000 * one);
+  near(paths_for_film(40, 50, 0), 4000 * one);
+  near(paths_for_film(100, 80, 0), 16'000 * one);
+  near(paths_for_film(500, 399, 0), 399'000 * one);
+  near(paths_for_film(1000, 1000, 0), 400'000 * one);
+  near(paths_for_film(1000, 1000, 500), 500 * one);  // said, it does not go by the film
+  near(paths_for_film(16, 16, 3'000'000), 3'000'000 * one);
+  // And so many do enter.
+  EXPECT_NEAR(static_cast<double>(paths_for_film(100, 80, 0, true)) / 16'000, 1, 0.05);
 }
 
 /// A layer of 200 mean free paths' width in even light, seen from above where its edges are far.

@@ -138,6 +138,12 @@ class Comparison {
     const at = 3 * (y * this.images[0].width + x);
     const rgb = (image) => [0, 1, 2].map((c) => image.values[at + c]);
     const truth = this.reference && luminance(...rgb(this.reference));
+    this.panels.read((name) => {
+      const values = rgb(this.images.find((image) => image.name === name));
+      const off = truth && name !== this.reference.name && luminance(...values) / truth - 1;
+      const share = Number.isFinite(off) && off !== false ? ` (${off > 0 ? '+' : ''}${brief(100 * off)} %)` : '';
+      return `${x}, ${y}: ${values.map(brief).join('  ')}${share}`;
+    });
     this.pixel.replaceChildren(
       element('caption', {}, `pixel ${x}, ${y}`),
       element('tr', {}, ...['', 'R', 'G', 'B', this.reference ? 'against reference' : ''].map((t) => element('th', {}, t))),
@@ -188,6 +194,17 @@ function summary({ verdicts, groups = [] }) {
   return lines;
 }
 
+/** What the names on the page mean, folded. */
+function glossary({ glossary: terms }) {
+  if (!terms?.length) return undefined;
+  return element(
+    'details',
+    { class: 'glossary' },
+    element('summary', {}, 'what the names mean'),
+    element('dl', {}, ...terms.flatMap(({ name, text }) => [element('dt', {}, name), element('dd', {}, text)])),
+  );
+}
+
 function facts(report) {
   const rows = Object.entries(report.facts ?? {});
   if (rows.length === 0) return undefined;
@@ -214,6 +231,8 @@ function main() {
   });
   document.getElementById('app').append(
     element('header', {}, element('h1', {}, report.title), element('p', {}, report.subtitle ?? ''), ...summary(report)),
+    element('div', { class: 'tables overview' }, ...(report.overview ?? []).map(makeTable)),
+    glossary(report) ?? '',
     ...comparisons.map((comparison) => comparison.root),
     element('div', { class: 'plots' }, ...(report.plots ?? []).map(makePlot)),
     element('div', { class: 'tables' }, ...(report.tables ?? []).map(makeTable)),

@@ -37,8 +37,14 @@ export class Panels {
     const sheets = canvases.map((canvas) => element('div', { class: 'sheet' }, canvas));
     const frame = element('div', { class: 'frame' }, ...sheets);
     frame.style.aspectRatio = `${this.width} / ${this.height}`;
-    const caption = element('figcaption', {}, ...layers.map((layer) => element('span', {}, layer.caption)));
-    const view = { figure: element('figure', {}, frame, caption), frame, canvases, layers };
+    frame.style.setProperty('--aspect', this.width / this.height);
+    const readings = layers.map(() => element('span', { class: 'reading' }));
+    const caption = element(
+      'figcaption',
+      {},
+      ...layers.map((layer, i) => element('span', { class: 'layer' }, element('span', {}, layer.caption), readings[i])),
+    );
+    const view = { figure: element('figure', {}, frame, caption), frame, canvases, layers, readings };
     frame.dataset.name = layers.map((layer) => layer.name).join(' | ');
     frame.addEventListener('pointermove', (event) => this.point(frame, event));
     if (layers.length === 2) this.addDivider(frame, sheets[1]);
@@ -80,6 +86,14 @@ export class Panels {
         const image = context.createImageData(this.width, this.height);
         layer.paint(image.data);
         context.putImageData(image, 0, 0);
+      });
+  }
+
+  /** Says under each picture what is under the cursor. @param {(name: string) => string} text */
+  read(text) {
+    for (const view of this.views)
+      view.layers.forEach((layer, i) => {
+        view.readings[i].textContent = text(layer.name);
       });
   }
 

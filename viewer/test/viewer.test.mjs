@@ -47,6 +47,8 @@ const report = {
       series: [{ name: 'a', x: [1, 10, 100], y: [1, 0.1, 0.01], low: [0.9, 0.09, 0.009], high: [1.1, 0.11, 0.011] }],
     },
   ],
+  overview: [{ title: 'against a', columns: ['method', 'greys'], rows: [['b', '7 ×']] }],
+  glossary: [{ name: 'a', text: 'a method' }],
   tables: [{ title: 'figures', columns: ['method', 'ours'], rows: [['a', 1.25]] }],
   facts: { command: 'turbid <compare>' },
 };
@@ -174,9 +176,38 @@ test('reads pixel values under the cursor, and flips by number', async () => {
   assert.match(await page.textContent('.pixel'), /dark0\.250\.250\.25-50 %bright0\.750\.750\.7550 %/s);
 });
 
+test('says under each picture what is under the cursor', async () => {
+  const frame = page.locator('.frame').first();
+  const box = await frame.boundingBox();
+  const step = (await scales())[0];
+  await page.mouse.move(box.x + 3.5 * step, box.y + 2.5 * step);
+  const readings = await page.$$eval('.reading', (all) => all.map((r) => r.textContent));
+  assert.deepEqual(readings, ['3, 2: 0.25  0.25  0.25 (-50 %)', '3, 2: 0.75  0.75  0.75 (+50 %)', '3, 2: 0.5  0.5  0.5']);
+});
+
+test('fits every view into the window', async () => {
+  for (const mode of ['side by side', 'split', 'flip']) {
+    await page.getByRole('button', { name: mode, exact: true }).click();
+    const frame = await page.locator('.frame').first().boundingBox();
+    const controls = await page.locator('.controls').boundingBox();
+    const caption = await page.locator('figcaption').first().boundingBox();
+    assert.ok(controls.height + frame.height + caption.height <= 1000, `${mode}: ${frame.height}`);
+    assert.ok(Math.abs(frame.width - frame.height) < 1, `${mode}: the whole image is seen`);
+    assert.ok(Math.abs((await scales())[0] * kSize - frame.width) < 1, `${mode}: it fills its frame`);
+  }
+});
+
+test('explains names and shows tables that stand before the images', async () => {
+  assert.match(await page.textContent('.overview'), /against a.*b7 ×/s);
+  const text = page.getByText('a method');
+  assert.equal(await text.isVisible(), false);
+  await page.getByText('what the names mean').click();
+  assert.equal(await text.isVisible(), true);
+});
+
 test('plots curves with their slopes', async () => {
   assert.match(await page.textContent('.plot'), /a \(slope -1\.00\)/);
-  assert.match(await page.textContent('.table'), /a1\.25/);
+  assert.match(await page.textContent('.tables:not(.overview)'), /a1\.25/);
   assert.deepEqual(problems, []);
 });
 
