@@ -192,9 +192,11 @@ size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) 
   constexpr size_t kPilotPaths = 4096;
   constexpr double kLeastPerPath = 0.001;
   // Small pictures see as much of a medium as large ones; beyond the largest number noise is not the sets'.
-  constexpr size_t kFewest = 8000, kFewestMeasured = 32'000, kMost = 400'000;
-  if (lights == 0)
-    lights = std::clamp(4 * pixel_count(plan.scene.film()), plan.table.measured() ? kFewestMeasured : kFewest, kMost);
+  constexpr size_t kFewest = 8000, kMost = 400'000;
+  if (lights == 0) lights = std::clamp(4 * pixel_count(plan.scene.film()), kFewest, kMost);
+  // A ratio of few samples is off.
+  constexpr size_t kFewestMeasured = 32'000;
+  if (plan.table.measured()) lights = std::max(lights, kFewestMeasured);
   SampleCounters counters;
   const double per_path =
       static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).lights.size()) / static_cast<double>(kPilotPaths);

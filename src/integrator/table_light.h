@@ -159,7 +159,7 @@ class EnteringLightKeeper : public WalkRecorder {
  public:
   /// `scale`: a factor of the flux.
   EnteringLightKeeper(const Scene& scene, const TableLight& table, SampleCounters& counters, float scale = 1)
-      : scene_(scene), table_(table), counters_(counters), scale_(scale), roulette_(table.media()) {}
+      : scene_(scene), table_(table), counters_(counters), scale_(scale), roulette_(table.media(), table.measured() ? kMeasuredShare : VisitRoulette::kShare) {}
 
   /// For a new walk; what has entered before is kept.
   void begin(const Rng& rng) { roulette_.begin(rng); }
@@ -186,6 +186,9 @@ class EnteringLightKeeper : public WalkRecorder {
   bool goes_on() const { return roulette_.goes_on(); }
 
  private:
+  /// Of walks that go on where what they bring out is wanted.
+  static constexpr float kMeasuredShare = 0.3f;
+
   const Scene& scene_;
   const TableLight& table_;
   SampleCounters& counters_;

@@ -118,9 +118,10 @@ TEST(TableLight, ModeSeedIsNearTheExactTable) {
 
 // What the table stands for, all find alike.
 TEST(TableLight, IntegratorsAgreeOnIt) {
-  for (const bool images : {false, true}) {
+  for (const auto& [images, measured] : {std::pair{false, false}, {true, false}, {false, true}}) {
     TableSettings table = settings_for_tests();
     table.images = images;
+    table.measured = measured;
     const PathSettings path{.min_scattering = 3};
     const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 6, 1);
     expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2), 0.01);
@@ -128,6 +129,33 @@ TEST(TableLight, IntegratorsAgreeOnIt) {
     expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2, 1.05),
                       0.01, false);
   }
+}
+
+// A thin ball that reflects inside, in even light from all sides: measured, it shines as walks say, where the table alone
+// is far off.
+TEST(TableLight, MeasuredLeavesAsMuchAsWalksBring) {
+  const std::string lit = scene(
+      R"(<emitter type="constant"><rgb name="radiance" value="1, 2, 1.5"/></emitter>)" +
+          glass("0, 0, 0.8", 1.1f, medium("interior", "2, 3, 2.5", "0.95, 0.98, 0.9", 0.7f)),
+      "", kPinhole);
+  const PathSettings path{.min_scattering = 3};
+  TableSettings table = settings_for_tests();
+  const auto by = [&](const TableSettings& settings, uint32_t samples, double brightness = 1) {
+    return observe_by(lit,
+                      std::make_unique<PathTracer>(PathTracer::Kind::kVolumes, path, ConnectionSettings{}, std::nullopt,
+                                                   settings, EnteringLightsSettings{.lights = 20'000}),
+                      samples, 1, brightness);
+  };
+  const Observation truth = by({}, 192);
+  const auto ratio = [&](const Observation& other) {
+    const Agreement agreement = compare(truth, other);
+    EXPECT_LT(agreement.ratio_error[0], 0.02) << agreement.report();
+    return agreement.mean_ratio[0];
+  };
+  EXPECT_GT(std::abs(ratio(by(table, 64)) - 1), 0.15);
+  table.measured = true;
+  EXPECT_NEAR(ratio(by(table, 64)), 1, 0.05);
+  EXPECT_GT(std::abs(ratio(by(table, 64, 0.88)) - 1), 0.05) << "a brightness of 0.88 is not noticed";
 }
 
 // What the table does not have, it does not touch: in whatever way a method makes paths, their visits are counted.
@@ -213,31 +241,30 @@ size_t paths_for_film(int width, int height, size_t lights, bool count = false) 
   replace(integer("height", 16), integer("height", height));
   LoadedScene loaded = load_scene_from_string(xml, "test scene", {});
   const Scene built(std::move(loaded.parts));
-  const LightSources sources(built, true);
   const PathSettings path;
   const TableLight table(built, settings_for_tests());
-  const EnteringLightsPlan plan{built, sources, path, table, 1};
+  const EnteringLightsPlan plan{built, path, table, 1};
   const size_t paths = paths_for_entering_lights(plan, lights);
   if (!count) return paths;
   SampleCounters counters;
   return EnteringLights(plan, paths, 0, counters).size();
 }
 
-// Two for each pixel, but 4000 at least and 400,000 at most: in numbers of light paths, which are made in proportion.
+// Four for each pixel, but 8000 at least and 400,000 at most: in numbers of light paths, which are made in proportion.
 TEST(EnteringLights, AreAsManyAsTheFilmAsksFor) {
   const auto near = [](size_t found, double expected) {
     EXPECT_NEAR(static_cast<double>(found) / expected, 1, 1e-3) << found << " instead of " << expected;
   };
   const auto one = static_cast<double>(paths_for_film(16, 16, 100'000)) / 100'000;
-  near(paths_for_film(16, 16, 0), 4000 * one);
-  near(paths_for_film(40, 50, 0), 4000 * one);
-  near(paths_for_film(100, 80, 0), 16'000 * one);
-  near(paths_for_film(500, 399, 0), 399'000 * one);
+  near(paths_for_film(16, 16, 0), 8000 * one);
+  near(paths_for_film(40, 50, 0), 8000 * one);
+  near(paths_for_film(100, 80, 0), 32'000 * one);
+  near(paths_for_film(250, 399, 0), 399'000 * one);
   near(paths_for_film(1000, 1000, 0), 400'000 * one);
   near(paths_for_film(1000, 1000, 500), 500 * one);  // said, it does not go by the film
   near(paths_for_film(16, 16, 3'000'000), 3'000'000 * one);
   // And so many do enter.
-  EXPECT_NEAR(static_cast<double>(paths_for_film(100, 80, 0, true)) / 16'000, 1, 0.05);
+  EXPECT_NEAR(static_cast<double>(paths_for_film(100, 80, 0, true)) / 32'000, 1, 0.05);
 }
 
 /// A layer of 200 mean free paths' width in even light, seen from above where its edges are far.
@@ -289,7 +316,8 @@ TEST_P(SlowTableLightOfLayers, WithinATenth) {
   std::printf("%-28s g %.1f, albedo %.3f, index %.3f: endless %.3f, image %.3f, measured %.3f\n", layer.name.c_str(),
               layer.g, layer.albedo, layer.index, plain, corrected, measured);
   EXPECT_NEAR(corrected, 1, 0.1) << layer.name;
-  EXPECT_NEAR(measured, 1, 0.1) << layer.name;
+  // What leaves in all directions is measured, and this is seen from above.
+  EXPECT_NEAR(measured, 1, 0.12) << layer.name;
 }
 INSTANTIATE_TEST_SUITE_P(
     SlowLayers, SlowTableLightOfLayers,

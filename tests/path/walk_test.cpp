@@ -107,6 +107,65 @@ TEST(LightSources, GiveEveryLightItsPower) {
     EXPECT_NEAR(powers[emitter] / static_cast<double>(emitter->power()[0]), 1, 4 / std::sqrt(counts[emitter]));
 }
 
+/// What light of a kind brings by rays that are aimed at balls, or not: to each of a few other balls, with the squared
+/// error; the share of rays that meet a target, and the largest flux.
+struct Aimed {
+  std::vector<double> means, errors;
+  double share = 0, largest = 0;
+};
+Aimed aim(const Scene& scene, const std::vector<Ball>& targets) {
+  const LightSources sources(scene, true, targets);
+  Sampler sampler(SamplerKind::kIndependent, targets.size());
+  const Ball probes[] = {{{1, 1, 1}, 0.5f}, {{1.2f, 1, 1}, 0.2f}, {{-1, 0, 0}, 0.8f}};
+  const auto meets = [](const Ball& ball, const EmissionSample& ray) {
+    const Vec3 way = ball.center - ray.origin;
+    return dot(way, ray.direction) > 0 && length(cross(way, ray.direction)) < ball.radius;
+  };
+  Aimed result;
+  std::vector<double> sums(3), squares(3);
+  for (uint64_t i = 0; i < kPaths; ++i) {
+    sampler.start(i, 0);
+    const auto emission = sources.sample(sampler);
+    if (!emission) continue;
+    const auto flux = static_cast<double>(emission->throughput[0]);
+    result.largest = std::max(result.largest, flux);
+    result.share += meets({{1, 1, 1}, 0.5f}, emission->ray) ? 1.0 / kPaths : 0;
+    for (size_t p = 0; p < 3; ++p)
+      if (meets(probes[p], emission->ray)) sums[p] += flux, squares[p] += flux * flux;
+  }
+  for (size_t p = 0; p < 3; ++p) {
+    result.means.push_back(sums[p] / kPaths);
+    result.errors.push_back(std::sqrt(squares[p]) / kPaths);
+  }
+  return result;
+}
+
+// Rays that are aimed bring as much everywhere, with more of them where they are wanted and never twice the weight.
+TEST(LightSources, AimedRaysBringTheSameLight) {
+  const std::string body = R"(<shape type="sphere"><float name="radius" value="3"/><bsdf type="null"/></shape>)";
+  const std::string turned = R"(<transform name="to_world"><lookat origin="2, 2, -2" target="0.8, 1, 1" up="0, 1, 0"/>
+      </transform>)";
+  const std::string kinds[] = {
+      R"(<emitter type="point"><point name="position" x="2" y="-1" z="2"/><rgb name="intensity" value="1"/></emitter>)",
+      R"(<emitter type="spot"><float name="cutoff_angle" value="40"/>)" + turned + "</emitter>",
+      R"(<emitter type="constant"><rgb name="radiance" value="0.3"/></emitter>)",
+      R"(<emitter type="directional"><vector name="direction" x="-1" y="-1" z="-1"/></emitter>)",
+      R"(<shape type="rectangle">)" + turned + R"(<emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>)"};
+  std::string all;
+  for (const std::string& kind : kinds) all += kind;
+  for (const std::string& lights : {kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], all}) {
+    const Scene scene = load(body + lights);
+    const Aimed plain = aim(scene, {}), aimed = aim(scene, {{{1, 1, 1}, 0.5f}, {{-1, -1, 0}, 0.4f}});
+    for (size_t p = 0; p < 3; ++p) {
+      const double error = std::hypot(plain.errors[p], aimed.errors[p]);
+      EXPECT_NEAR(plain.means[p], aimed.means[p], 4 * error + 1e-6 * plain.means[p]) << lights << ", probe " << p;
+    }
+    EXPECT_GT(aimed.share, 1.5 * plain.share) << lights;
+    EXPECT_LT(aimed.errors[0], plain.errors[0]) << lights;
+    EXPECT_LT(aimed.largest, 2.001 * plain.largest) << lights;
+  }
+}
+
 TEST(LightSources, KnowTheMediumThatTheyStandIn) {
   Sampler sampler(SamplerKind::kIndependent, 2);
   const auto medium_of_start = [&](const Scene& scene) {

@@ -1,0 +1,128 @@
+// What leaves media against what is predicted to.
+#include "integrator/light_balance.h"
+
+#include <gtest/gtest.h>
+
+#include "core/frame.h"
+#include "integrator/boundary_views.h"
+#include "integrator/rendering.h"
+
+namespace turbid::testing {
+namespace {
+
+/// Light from places in the unit cube, one after the other.
+std::vector<LeavingPower> light_of(size_t count, uint64_t seed, const std::function<float(const LeavingPower&)>& power) {
+  Rng rng(seed);
+  std::vector<LeavingPower> all;
+  for (size_t i = 0; i < count; ++i) {
+    LeavingPower one;
+    one.scattered = {rng.next_float(), rng.next_float(), rng.next_float()};
+    one.direction = direction_about({0, 0, 1}, 1 - 2 * rng.next_float(), 2 * kPi * rng.next_float());
+    one.power = Spectrum(1, 2, 0.5f) * (power(one) / static_cast<float>(count));
+    all.push_back(one);
+  }
+  return all;
+}
+
+// A ratio that a grid can hold comes back, whatever samples it is told by; that of all is exact.
+TEST(LightBalance, FindsARatioThatVaries) {
+  const auto ratio = [](const LeavingPower& l) { return 0.5f + l.scattered.x + 0.4f * l.direction.z * l.direction.z; };
+  const LightBalance balance(light_of(400'000, 1, ratio), light_of(300'000, 2, [](const auto&) { return 1.0f; }), 64);
+  double worst = 0;
+  for (const LeavingPower& l : light_of(2000, 3, ratio)) {
+    const double error =
+        static_cast<double>(balance.at(l.scattered, l.direction)[1]) / static_cast<double>(ratio(l)) - 1;
+    worst = std::max(worst, std::abs(error));
+  }
+  EXPECT_LT(worst, 0.08);
+  EXPECT_NEAR(balance.whole()[0], 0.5f + 0.5f + 0.4f / 3, 0.01f);
+  // Planted: another ratio does not pass.
+  EXPECT_GT(std::abs(static_cast<double>(balance.at({0.9f, 0.5f, 0.5f}, {0, 0, 1})[1]) / 1.6 - 1), 0.08);
+}
+
+// With few samples there is the ratio of all, not the noise of one place; without any nothing changes.
+TEST(LightBalance, FallsBackOnLargerParts) {
+  const auto one = [](const LeavingPower&) { return 1.0f; };
+  const auto three = [](const LeavingPower&) { return 3.0f; };
+  const LightBalance few(light_of(40, 1, three), light_of(60, 2, one), 1000);
+  for (const LeavingPower& l : light_of(50, 3, one)) {
+    const float ratio = few.at(l.scattered, l.direction)[2];
+    EXPECT_GT(ratio, 2);
+    EXPECT_LT(ratio, 4.5f);
+  }
+  EXPECT_EQ(LightBalance().at({1, 2, 3}, {0, 0, 1}), Spectrum(1.0f));
+  EXPECT_EQ(LightBalance({}, light_of(10, 1, one), 8).at({1, 2, 3}, {0, 0, 1}), Spectrum(1.0f));
+  const std::vector<LeavingPower> all = light_of(100, 1, one);
+  EXPECT_EQ(LightBalance(all, {}, 8).at(all[0].scattered, {0, 0, 1}), Spectrum(1.0f));
+  const std::vector<LeavingPower> at_one_place(10, all[0]);
+  EXPECT_EQ(LightBalance(at_one_place, all, 8).at({0, 0, 0}, {0, 0, 1}), Spectrum(1.0f));
+}
+
+constexpr float kSigmaT = 0.8f, kRadius = 1.5f;
+
+Scene ball_of(const std::string& bsdf, const std::string& inside = "") {
+  const std::string ball = R"(<shape type="sphere"><float name="radius" value="1.5"/>)" + bsdf +
+                           R"(<medium name="interior" type="homogeneous"><float name="sigma_t" value="0.8"/>
+      <rgb name="albedo" value="0.5"/></medium></shape>)";
+  return Scene(load_scene_from_string("<scene version=\"3.0.0\"><sensor type=\"perspective\"><transform "
+                                      "name=\"to_world\"><lookat origin=\"0,0,9\" target=\"0,0,0\" up=\"0,1,0\"/>"
+                                      "</transform></sensor>" +
+                                          ball + inside + "</scene>",
+                                      "test scene")
+                   .parts);
+}
+
+/// What leaves the ball, were its source radiance 1 everywhere.
+double power_of_even_light(const Scene& scene, bool inner_side = true) {
+  const Medium& medium = *scene.media().front().medium;
+  std::set<SurfaceSide> sides;
+  for (const Object& object : scene.objects()) sides.insert({&object, object.bounds_media != inner_side});
+  double sum = 0;
+  for (const LeavingPower& l :
+       look_into(scene, medium, sides, {{0.1f, 0, 0}, 2}, 100'000, 7, [](const auto&, const PathState& state, Rng&) {
+         return state.throughput / (kSigmaT * 0.5f);
+       })) {
+    EXPECT_LE(length(l.scattered), kRadius * 1.0001f);
+    EXPECT_NEAR(length(l.direction), 1, 1e-5f);
+    sum += static_cast<double>(l.power[0]);
+  }
+  return sum;
+}
+
+// pi A (1 - <e^-sigma c>) / sigma, c the chords of a ball, of density c / 2R^2.
+TEST(BoundaryViews, SeeThePowerThatLeavesABall) {
+  const double x = 2.0 * kRadius * kSigmaT, area = 4 * std::numbers::pi * 2.25;
+  const double passes = 2 * (1 - (1 + x) * std::exp(-x)) / (x * x);
+  const double power = std::numbers::pi * area * (1 - passes) / 0.8;
+  EXPECT_NEAR(power_of_even_light(ball_of(R"(<bsdf type="null"/>)")) / power, 1, 0.01);
+  // Where the boundary bends light less leaves, but the same as a walk from inside has it: n^2 of the étendue.
+  const double bent = power_of_even_light(
+      ball_of(R"(<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>)"));
+  EXPECT_LT(bent, 0.6 * power);
+  EXPECT_GT(bent, 0.3 * power);
+  // Sides that nothing leaves by are not looked into.
+  EXPECT_EQ(power_of_even_light(ball_of(R"(<bsdf type="null"/>)"), false), 0);
+}
+
+// A black ball inside is left into as well: it takes what comes to its surface.
+TEST(BoundaryViews, SeeWhatOpaqueSurfacesTake) {
+  const std::string black = R"(<shape type="sphere"><float name="radius" value="0.05"/><bsdf type="diffuse">
+      <rgb name="reflectance" value="0"/></bsdf></shape>)";
+  const Scene scene = ball_of(R"(<bsdf type="null"/>)", black);
+  const Medium& medium = *scene.media().front().medium;
+  std::set<SurfaceSide> sides;
+  for (const Object& object : scene.objects())
+    if (!object.bounds_media) sides.insert({&object, true});
+  double sum = 0;
+  for (const LeavingPower& l :
+       look_into(scene, medium, sides, {{0, 0, 0}, 0.06f}, 100'000, 7, [](const auto&, const PathState& state, Rng&) {
+         return state.throughput / (kSigmaT * 0.5f);
+       }))
+    sum += static_cast<double>(l.power[0]);
+  // From the middle every way out is about the radius long.
+  const double radiance = (1 - std::exp(-0.8 * 1.47)) / 0.8;
+  EXPECT_NEAR(sum / (std::numbers::pi * 4 * std::numbers::pi * 0.0025 * radiance), 1, 0.03);
+}
+
+}  // namespace
+}  // namespace turbid::testing
