@@ -156,7 +156,7 @@ float LobeField::eval(const Vec3& x, const Vec3& axis, const Vec3& w) const {
   Lanes sum(0.0f);
   size_t at = 0;
   SagittalHarmonics::for_each_degree(degree_, view.direction, [&](int, const Lanes& y) {
-    const auto row = [&](int k) { return SagittalHarmonics::load(c.rows[k] + at); };
+    const auto row = [&](int k) { return load_lanes(c.rows[k] + at); };
     sum += y * ((c.weights[0] * row(0) + c.weights[1] * row(1)) + (c.weights[2] * row(2) + c.weights[3] * row(3)));
     at += kOrders;
   });

@@ -27,7 +27,6 @@ class LobeField final : public LightField {
   const FarField& far_field() const { return far_field_; }
 
  private:
-  using Lanes = SagittalHarmonics::Lanes;
   /// The four nodes around a place, and the factor of their interpolant.
   struct Corners {
     const float* rows[4];
