@@ -69,6 +69,23 @@ inline Lanes log_lanes(const Lanes& x) {
          2 * s * (1 + s2 * (1.0f / 3 + s2 * (1.0f / 5 + s2 * (1.0f / 7 + s2 * (1.0f / 9)))));
 }
 
+/// e^x to 2e-7 of itself where -87 < x < 88; below that it is 0.
+inline Lanes exp_lanes(const Lanes& x) {
+  namespace stdx = std::experimental;
+  // x = n ln 2 + r, |r| <= (ln 2) / 2; n (ln 2) in two parts, the first one of 9 bits.
+  const Lanes n = stdx::floor(x * (1 / std::numbers::ln2_v<float>)+0.5f);
+  const Lanes r = (x - n * 0x1.63p-1f) - n * static_cast<float>(std::numbers::ln2 - 0x1.63p-1);
+  // The term in r^8 is 5e-9.
+  const Lanes power =
+      1 +
+      r * (1 + r * (1.0f / 2) *
+                   (1 + r * (1.0f / 3) *
+                            (1 + r * (1.0f / 4) * (1 + r * (1.0f / 5) * (1 + r * (1.0f / 6) * (1 + r * (1.0f / 7)))))));
+  Lanes result = stdx::ldexp(power, stdx::static_simd_cast<stdx::fixed_size_simd<int, kLanes>>(n));
+  stdx::where(x < -87.0f, result) = Lanes(0.0f);
+  return result;
+}
+
 /// cos and sin of 2 pi u, 0 <= u <= 1, to 3e-7.
 struct TurnLanes {
   Lanes cosine, sine;

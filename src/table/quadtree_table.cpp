@@ -27,10 +27,24 @@ class QuadtreeLight final : public ScatteredLight {
     for (; begin + kUnitSegment <= depth && begin < kFarthest; begin += kUnitSegment)
       sum += std::exp(-begin) * segment_.eval(x - axis * begin, axis, w);
     if (begin >= kFarthest || !(depth > begin)) return sum;
-    return sum + std::exp(-begin) * collisions_of_stretch(collision_, depth - begin, x - axis * begin, axis, w);
+    return sum + std::exp(-begin) * collisions_of_stretch(depth - begin, x - axis * begin, axis,
+                                                          [&](const Vec3& at) { return collision_.eval(at, axis, w); });
+  }
+  Lanes from_collision(const Vec3Lanes& x, const Vec3& axis, const Vec3& w) const override {
+    return for_each_lane(x, [&](const Vec3& at) { return from_collision(at, axis, w); });
+  }
+  Lanes from_stretch(const Vec3Lanes& x, const Vec3& axis, float depth, const Vec3& w) const override {
+    return for_each_lane(x, [&](const Vec3& at) { return from_stretch(at, axis, depth, w); });
   }
 
  private:
+  template <class Value>
+  static Lanes for_each_lane(const Vec3Lanes& x, const Value& value) {
+    LaneRow row;
+    for (size_t lane = 0; lane < kLanes; ++lane) row[lane] = value(Vec3(x.x[lane], x.y[lane], x.z[lane]));
+    return load_lanes(row);
+  }
+
   QuadtreeField collision_, segment_;
 };
 

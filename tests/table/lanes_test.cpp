@@ -39,6 +39,16 @@ TEST(Lanes, LogarithmsAreThoseOfTheLibrary) {
     }
 }
 
+TEST(Lanes, ExponentialsAreThoseOfTheLibrary) {
+  for (float x = -86.9f; x < 87; x += 0.0137f) {
+    const double expected = std::exp(static_cast<double>(x));
+    EXPECT_NEAR(static_cast<double>(exp_lanes(Lanes(x))[6]) / expected, 1, 2.5e-7) << x;
+  }
+  EXPECT_EQ(exp_lanes(Lanes(0.0f))[0], 1);
+  EXPECT_EQ(exp_lanes(Lanes(-1e5f))[0], 0);
+  EXPECT_EQ(exp_lanes(Lanes(-kInfinity))[0], 0);
+}
+
 TEST(Lanes, TurnsAreCosineAndSine) {
   for (int i = 0; i <= 4096; ++i) {
     const float u = static_cast<float>(i) / 4096;
