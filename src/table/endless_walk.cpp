@@ -32,24 +32,7 @@ EndlessWalks::EndlessWalks(const PhaseFunction& phase, size_t reach, uint64_t se
 }
 
 void EndlessWalks::step() {
-  LaneRow mu, azimuth, whole, rest;
-  for (size_t w = 0; w < kCount; ++w) {
-    Rng& rng = rngs_[w];
-    mu[w] = phase_.sample(rng.next_float());
-    azimuth[w] = rng.next_float();
-    // 1 - u has 24 bits. Flights of more than 12 ln 2 mean free paths are drawn anew from there, so none is too long.
-    float flight = 0, u = rng.next_float();
-    while (u >= 1 - 0x1p-12f) {
-      flight += 12 * std::numbers::ln2_v<float>;
-      u = rng.next_float();
-    }
-    whole[w] = flight;
-    rest[w] = 1 - u;
-  }
-  const Lanes cosine = load_lanes(mu), sine = safe_sqrt(1 - cosine * cosine);
-  const TurnLanes turn(load_lanes(azimuth));
-  direction_ = normalize(FrameLanes(direction_).to_world({sine * turn.cosine, sine * turn.sine, cosine}));
-  const LaneRow flights = to_row(load_lanes(whole) - log_lanes(load_lanes(rest)));
+  const LaneRow flights = to_row(scatter_and_fly(phase_, rngs_, direction_));
   const std::array<LaneRow, 3> directions{to_row(direction_.x), to_row(direction_.y), to_row(direction_.z)};
   for (size_t axis = 0; axis < 3; ++axis)
     for (size_t w = 0; w < kCount; ++w)

@@ -2,9 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "core/rng.h"
-#include "medium/phase_function.h"
-#include "table/lanes.h"
+#include "table/flights.h"
 
 namespace turbid {
 

@@ -39,7 +39,11 @@ class LobeDirections {
 /// free path 1, the albedo of each channel inside.
 struct PhotonLobes {
   Quadtree tree;
-  std::vector<float> values;  ///< [leaf][channel][direction]: source radiance, 1/sr per cubic mean free path
+  /// [leaf][channel][direction]: source radiance at a leaf's middle, 1/sr per cubic mean free path.
+  std::vector<float> values;
+  /// [leaf][channel]: what the interpolant is multiplied by within a leaf, so that it puts into the leaf what photons
+  /// did: between middles light falls off steeply and bends upwards, where interpolation adds to it.
+  std::vector<float> factors;
 
   const float* lobe(size_t leaf, size_t channel) const {
     return values.data() + (leaf * kChannels + channel) * LobeDirections::kCount;
