@@ -51,8 +51,8 @@ struct Deposit {
 constexpr size_t kBlocks = 16;
 using Deposits = std::array<std::array<std::vector<Deposit>, kBlocks>, kSourceKinds>;
 
-/// A collision of a high order is put in with this probability.
-float chance(int order) { return std::min(1.0f, 8.0f / static_cast<float>(order)); }
+/// A collision of a high order is put in with this probability: as many of each octave.
+float chance(int order) { return std::min(1.0f, 8 / (static_cast<float>(order) * SeedPhotons::left(order))); }
 
 void collect(const SeedPhotons& photons, const std::array<PhotonLobes, kSourceKinds>& lobes, uint64_t first,
              uint64_t last, Deposits& deposits) {
@@ -61,7 +61,6 @@ void collect(const SeedPhotons& photons, const std::array<PhotonLobes, kSourceKi
   photons.follow(first, last, [&](const Collision& collision, Rng& rng) {
     const float probability = chance(collision.order);
     if (probability < 1 && !(rng.next_float() < probability)) return;
-    const Spectrum flux = photons.flux(collision.order) / probability;
     for (size_t k = 0; k < kSourceKinds; ++k) {
       const Vec3 x = seen_from(collision, static_cast<SourceKind>(k), rng);
       const Quadtree::Place place = place_of(x);
@@ -69,7 +68,7 @@ void collect(const SeedPhotons& photons, const std::array<PhotonLobes, kSourceKi
       if (!tree.holds(place)) continue;
       const auto leaf = static_cast<uint32_t>(tree.find(place).number);
       const uint32_t arrival = ArrivalLobes::step(SagittalView(x, kAxis, collision.direction).direction);
-      deposits[k][leaf % kBlocks].push_back({leaf, arrival, flux});
+      deposits[k][leaf % kBlocks].push_back({leaf, arrival, photons.flux(collision.order) / probability});
     }
   });
 }

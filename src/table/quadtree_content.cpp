@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "core/gauss_legendre.h"
 
@@ -64,26 +65,35 @@ std::vector<double> QuadtreeContent::of(std::span<const double> values) const {
 }
 
 QuadtreeContent::Field QuadtreeContent::to_field(std::span<const double> contents) const {
-  // Each round multiplies a value by what its leaf should have over what it has. A leaf gives itself more than half of
-  // its content, so this settles; noise between neighbours, which takes longest, is left to the factors.
-  constexpr int kRounds = 2;
-  Field field{std::vector<double>(contents.size()), std::vector<double>(contents.size(), 1)};
-  for (size_t leaf = 0; leaf < contents.size(); ++leaf) field.values[leaf] = contents[leaf] / volumes_[leaf];
+  // Each round multiplies a value by what its leaf and those around it should have over what they have: the mean over
+  // those that it is interpolated with. What interpolation adds or takes changes slowly from leaf to leaf and is made
+  // good in few rounds; the contents' noise does not, and is left to be smoothed.
+  constexpr int kRounds = 3;
+  constexpr double kMost = 1.25;
+  const size_t leaves = contents.size();
+  Field field{std::vector<double>(leaves), std::vector<double>(leaves, 1)};
+  for (size_t leaf = 0; leaf < leaves; ++leaf) field.values[leaf] = contents[leaf] / volumes_[leaf];
   const std::vector<double> means = field.values;
-  for (int round = 0; round <= kRounds; ++round) {
-    const std::vector<double> found = of(field.values);
-    for (size_t leaf = 0; leaf < contents.size(); ++leaf) {
-      if (!(contents[leaf] > 0)) {
-        field.factors[leaf] = 0;
-        continue;
-      }
-      double& value = field.values[leaf];
-      if (round < kRounds)
-        value = std::clamp(value * contents[leaf] / found[leaf], 0.3 * means[leaf], 3 * means[leaf]);
-      else
-        field.factors[leaf] = contents[leaf] / found[leaf];
+  std::vector<double> found = of(field.values), missing(leaves);
+  for (int round = 0; round < kRounds; ++round) {
+    for (size_t leaf = 0; leaf < leaves; ++leaf)
+      missing[leaf] = contents[leaf] > 0 ? std::log(contents[leaf] / found[leaf]) : 0;
+    for (size_t leaf = 0; leaf < leaves; ++leaf) {
+      double sum = 0;
+      for (const Share& share : rows_[leaf]) sum += share.volume * missing[share.leaf];
+      field.values[leaf] =
+          std::clamp(field.values[leaf] * std::exp(sum / volumes_[leaf]), 0.3 * means[leaf], 3 * means[leaf]);
     }
+    found = of(field.values);
   }
+  for (size_t leaf = 0; leaf < leaves; ++leaf)
+    if (found[leaf] > kMost * contents[leaf] || kMost * found[leaf] < contents[leaf]) {
+      field.factors[leaf] = contents[leaf] / found[leaf];
+      found[leaf] = contents[leaf];
+    }
+  const double factor = std::accumulate(contents.begin(), contents.end(), 0.0) /
+                        std::max(std::accumulate(found.begin(), found.end(), 0.0), 1e-300);
+  for (double& value : field.values) value *= factor;
   return field;
 }
 

@@ -8,7 +8,9 @@
 namespace turbid {
 
 /// Photons that collide at the origin, having travelled along +z. Each goes on by chance, with the largest channel's
-/// albedo, and has a random stream of its own.
+/// albedo and, from the 32nd collision on, so that their number also falls like the root of the order, and has a random
+/// stream of its own. At high albedo most of the time would go into late collisions, hundreds of each photon, which
+/// tell little that their neighbours do not.
 class SeedPhotons {
  public:
   /// One collision of a photon.
@@ -18,14 +20,24 @@ class SeedPhotons {
   };
 
   SeedPhotons(const PhaseFunction& phase, const Spectrum& albedo, const QuadtreeSettings& settings)
-      : phase_(phase), albedo_(albedo), largest_(albedo.max()), settings_(settings) {}
+      : phase_(phase), largest_(albedo.max()), settings_(settings) {
+    for (int c = 0; c < kChannels; ++c) {
+      first_flux_[c] = std::pow(albedo[c], static_cast<float>(settings.from_order));
+      decay_[c] = albedo[c] > 0 ? std::log2(albedo[c] / largest_) : 0;
+    }
+  }
+
+  /// How many of the photons that are not absorbed go on to a collision of this order.
+  static float left(int order) { return std::min(1.0f, std::sqrt(32 / static_cast<float>(order))); }
+  /// left(order + 1) / left(order).
+  static float goes_on(int order) { return order < 32 ? 1 : std::sqrt(1 - 1 / static_cast<float>(order + 1)); }
 
   /// What leaves a collision of this order, per photon.
   Spectrum flux(int order) const {
-    const auto sure = static_cast<float>(settings_.from_order), later = static_cast<float>(order) - sure;
-    Spectrum result;
-    for (int c = 0; c < kChannels; ++c) result[c] = std::pow(albedo_[c], sure) * std::pow(albedo_[c] / largest_, later);
-    return result;
+    const auto later = static_cast<float>(order - settings_.from_order);
+    Spectrum result = first_flux_;
+    for (int c = 0; c < kChannels; ++c) result[c] *= std::exp2(decay_[c] * later);
+    return result / left(order);
   }
 
   /// Calls visit(collision, rng) for all collisions that count, of the photons first ... last - 1, eight at a time:
@@ -55,7 +67,7 @@ class SeedPhotons {
           };
           visit(Collision{vector(positions), vector(directions), orders[lane]}, rngs[lane]);
           // The first collisions are sure.
-          if (!(rngs[lane].next_float() < largest_)) {
+          if (!(rngs[lane].next_float() < largest_ * goes_on(orders[lane]))) {
             --flying;
             begin(lane);
           }
@@ -73,7 +85,8 @@ class SeedPhotons {
 
  private:
   const PhaseFunction& phase_;
-  Spectrum albedo_;
+  Spectrum first_flux_;  ///< of the first order that counts
+  Spectrum decay_;       ///< log2 of a channel's albedo over the largest one
   float largest_;
   QuadtreeSettings settings_;
 };
