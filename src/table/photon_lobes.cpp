@@ -7,7 +7,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/frame.h"
 #include "core/parallel.h"
 #include "core/rng.h"
 #include "table/arrival_lobes.h"
