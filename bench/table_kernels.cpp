@@ -103,10 +103,10 @@ BENCHMARK(table_seed_segment_segment);
 
 void table_walk(benchmark::State& state) {
   const HenyeyGreensteinPhase phase(0.9f);
-  EndlessWalk walk(phase, 16, 1);
+  EndlessWalks walks(phase, 16, 1);
   for (auto _ : state)
-    for (size_t i = 0; i < kPlaces; ++i) walk.step();
-  benchmark::DoNotOptimize(walk.back(0));
+    for (size_t i = 0; i < kPlaces; i += EndlessWalks::kCount) walks.step();
+  benchmark::DoNotOptimize(walks.back(0, 0));
   state.SetItemsProcessed(state.iterations() * static_cast<int64_t>(kPlaces));
 }
 BENCHMARK(table_walk);

@@ -118,10 +118,10 @@ void measure(const Subject& subject, const Options& options) {
   const Stage stage(options.scenes + "/" + subject.file, subject.definitions);
   const std::string orders = options.multiple ? ",min_scattering=3" : "";
   const auto half = [&](uint64_t seed) {
-    const std::string kept =
-        options.keep.empty() ? ""
-                             : fmt::format("{}/{}_{}_{}_{}_{}.exr", options.keep, subject.name, options.size,
-                                           options.multiple ? "multiple" : "all", options.reference_seconds, seed);
+    const std::string kept = options.keep.empty()
+                                 ? ""
+                                 : fmt::format("{}/{}_{}_{}_{}_{}.exr", options.keep, subject.name, options.size,
+                                               options.multiple ? "multiple" : "all", options.reference_seconds, seed);
     if (!kept.empty() && std::filesystem::exists(kept)) return read_exr(kept);
     Run run(stage, subject.truth + orders, seed);
     run.render_until(options.reference_seconds / 2);

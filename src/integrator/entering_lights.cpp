@@ -10,8 +10,8 @@ namespace {
 
 constexpr size_t kGrain = 64;  ///< paths per task
 /// Keep streams apart.
-constexpr uint64_t kEnteringStream = 0x656e746572ull, kRouletteStream = 0x726f756cull,
-                   kViewStream = 0x76696577ull, kPilotSet = ~uint64_t{0};
+constexpr uint64_t kEnteringStream = 0x656e746572ull, kRouletteStream = 0x726f756cull, kViewStream = 0x76696577ull,
+                   kPilotSet = ~uint64_t{0};
 /// Which orders count is for what the light brings to say.
 PathSettings all_orders(PathSettings settings) {
   settings.min_scattering = 0;
@@ -198,8 +198,8 @@ size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights) 
   constexpr size_t kFewestMeasured = 32'000;
   if (plan.table.measured()) lights = std::max(lights, kFewestMeasured);
   SampleCounters counters;
-  const double per_path =
-      static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).lights.size()) / static_cast<double>(kPilotPaths);
+  const double per_path = static_cast<double>(trace(plan, kPilotPaths, kPilotSet, counters).lights.size()) /
+                          static_cast<double>(kPilotPaths);
   const double paths = static_cast<double>(lights) / std::max(per_path, kLeastPerPath);
   return std::max<size_t>(1, static_cast<size_t>(std::lround(paths)));
 }

@@ -51,8 +51,8 @@ void for_coarser_nodes(const std::array<int, 3>& cells, const Share& share) {
           double weight = 1;
           for (size_t a = 0; a < 3; ++a) weight *= at[a] % 2 ? 0.5 : side[a] ? 0 : 1;
           if (weight > 0)
-            share(node_index(cells, x, y, z),
-                  node_index(coarser, x / 2 + side[0], y / 2 + side[1], z / 2 + side[2]), weight);
+            share(node_index(cells, x, y, z), node_index(coarser, x / 2 + side[0], y / 2 + side[1], z / 2 + side[2]),
+                  weight);
         }
 }
 
@@ -106,19 +106,27 @@ LightBalance::LightBalance(std::span<const LeavingPower> leaving, std::span<cons
   for (int a = 0; a < 3; ++a)
     cells_[static_cast<size_t>(a)] = std::max(1, static_cast<int>(std::ceil(size[a] / spacing_)));
 
+  Ratios ones;
+  ones.fill(Spectrum(1.0f));
+  ratios_.assign(node_count(cells_), ones);
+  // Nodes blur what they are told: each round mends what those before have left.
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) refine(leaving, predicted);
+}
+
+void LightBalance::refine(std::span<const LeavingPower> leaving, std::span<const LeavingPower> predicted) {
   std::vector<Level> levels{Level(cells_)};
-  const auto put = [&](std::span<const LeavingPower> all, Sums Pair::*sums) {
-    for (const LeavingPower& l : all) {
-      const auto by_direction = direction_weights(l.direction);
-      for (const Corner& corner : corners(l.scattered))
-        for (size_t d = 0; d < kDirections; ++d)
-          for (int c = 0; c < kChannels; ++c)
-            (levels.front().nodes[corner.node][d][static_cast<size_t>(c)].*sums)
-                .add(static_cast<double>(corner.weight * by_direction[d]), static_cast<double>(l.power[c]));
-    }
+  const auto put = [&](const LeavingPower& light, const Spectrum& power, Sums Pair::*sums) {
+    const auto by_direction = direction_weights(light.direction);
+    for (const Corner& corner : corners(light.scattered))
+      for (size_t d = 0; d < kDirections; ++d)
+        for (int c = 0; c < kChannels; ++c)
+          (levels.front().nodes[corner.node][d][static_cast<size_t>(c)].*sums)
+              .add(static_cast<double>(corner.weight * by_direction[d]), static_cast<double>(power[c]));
   };
-  put(leaving, &Pair::leaving);
-  put(predicted, &Pair::predicted);
+  for (const LeavingPower& light : leaving) put(light, light.power, &Pair::leaving);
+  for (const LeavingPower& light : predicted)
+    put(light, light.power * at(light.scattered, light.direction), &Pair::predicted);
 
   while (levels.back().cells != Cells{1, 1, 1}) {
     Level coarser(halved(levels.back().cells));
@@ -129,41 +137,42 @@ LightBalance::LightBalance(std::span<const LeavingPower> leaving, std::span<cons
     levels.push_back(std::move(coarser));
   }
 
+  Spectrum whole(1.0f);
   for (size_t c = 0; c < kChannels; ++c) {
     Pair all;
     for (const Level::Node& node : levels.back().nodes)
       for (const auto& direction : node) all.add(1, direction[c]);
-    if (all.tells()) whole_[static_cast<int>(c)] = static_cast<float>(all.ratio());
+    if (all.tells()) whole[static_cast<int>(c)] = static_cast<float>(all.ratio());
   }
-  using Ratios = std::array<Spectrum, kDirections>;
-  Ratios same;
-  same.fill(whole_);
-  ratios_.assign(levels.back().nodes.size(), same);
+  Ratios same, none;
+  same.fill(whole);
+  none.fill(Spectrum(0.0f));
+  std::vector<Ratios> factors(levels.back().nodes.size(), same);
   for (size_t l = levels.size(); l-- > 0;) {
     const Level& level = levels[l];
     if (l + 1 < levels.size()) {
-      Ratios none;
-      none.fill(Spectrum(0.0f));
       std::vector<Ratios> finer(level.nodes.size(), none);
       for_coarser_nodes(level.cells, [&](size_t from, size_t to, double weight) {
-        for (size_t d = 0; d < kDirections; ++d) finer[from][d] += ratios_[to][d] * static_cast<float>(weight);
+        for (size_t d = 0; d < kDirections; ++d) finer[from][d] += factors[to][d] * static_cast<float>(weight);
       });
-      ratios_ = std::move(finer);
+      factors = std::move(finer);
     }
-    for (size_t n = 0; n < ratios_.size(); ++n)
+    for (size_t n = 0; n < factors.size(); ++n)
       for (size_t d = 0; d < kDirections; ++d)
         for (size_t c = 0; c < kChannels; ++c) {
           const Pair& pair = level.nodes[n][d][c];
           if (!pair.tells()) continue;
-          float& ratio = ratios_[n][d][static_cast<int>(c)];
+          float& factor = factors[n][d][static_cast<int>(c)];
           const double count = pair.count();
-          ratio = static_cast<float>((count * pair.ratio() + kPrior * static_cast<double>(ratio)) / (count + kPrior));
+          factor = static_cast<float>((count * pair.ratio() + kPrior * static_cast<double>(factor)) / (count + kPrior));
         }
   }
+  for (size_t n = 0; n < ratios_.size(); ++n)
+    for (size_t d = 0; d < kDirections; ++d) ratios_[n][d] *= factors[n][d];
 }
 
 Spectrum LightBalance::at(const Vec3& x, const Vec3& w) const {
-  if (ratios_.empty()) return whole_;
+  if (ratios_.empty()) return Spectrum(1.0f);
   const auto by_direction = direction_weights(w);
   Spectrum sum(0.0f);
   for (const Corner& corner : corners(x))

@@ -27,17 +27,18 @@ class LightBalance {
 
   /// Of what is scattered at x towards w (unit).
   Spectrum at(const Vec3& x, const Vec3& w) const;
-  /// That of all light.
-  const Spectrum& whole() const { return whole_; }
 
  private:
   static constexpr size_t kDirections = 6;  ///< +x, -x, +y ...
+  using Ratios = std::array<Spectrum, kDirections>;
   using Cells = std::array<int, 3>;
   struct Level;
   struct Corner {
     size_t node;
     float weight;
   };
+  /// Multiplies the ratios by what is still to be made good.
+  void refine(std::span<const LeavingPower> leaving, std::span<const LeavingPower> predicted);
   static std::array<float, kDirections> direction_weights(const Vec3& w);
   /// The nodes around a place, with their trilinear weights; beyond the grid those of the next place on it.
   std::array<Corner, 8> corners(const Vec3& x) const;
@@ -45,8 +46,7 @@ class LightBalance {
   Vec3 origin_{0, 0, 0};
   float spacing_ = 0;
   Cells cells_{0, 0, 0};
-  Spectrum whole_{1.0f};
-  std::vector<std::array<Spectrum, kDirections>> ratios_;  ///< of the nodes; empty: `whole_` everywhere
+  std::vector<Ratios> ratios_;  ///< of the nodes; empty: 1 everywhere
 };
 
 }  // namespace turbid

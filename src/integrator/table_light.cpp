@@ -209,7 +209,8 @@ Spectrum TableLight::along(const EnteringLight& light, const BoundaryPlanes& bou
   const auto at = collide_before(*entry->medium, way.t_max, channel_mix(state.throughput), rng.next_float());
   if (!std::isfinite(at.t) || !(at.pdf_t > 0)) return Spectrum(0.0f);
   return state.throughput * entry->medium->transmittance(at.t) / at.pdf_t *
-         source_radiance(light, boundaries, way.at(at.t), -way.direction, rng) * balance.at(way.at(at.t), -way.direction);
+         source_radiance(light, boundaries, way.at(at.t), -way.direction, rng) *
+         balance.at(way.at(at.t), -way.direction);
 }
 
 void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const PathState& state,
@@ -225,7 +226,10 @@ void EnteringLightKeeper::on_segment(const Ray& way, const Medium& medium, const
 void EnteringLightKeeper::left_medium(const Object& object, const SurfacePoint& point, const Vec3& given,
                                       const PathState& state) {
   if (!table_.measured() || state.visit_order < table_.table_order() || !table_.holds(last_medium_)) return;
-  left_.push_back({last_medium_, point.p, {&object, dot(given, point.ng) > 0}, {last_, last_direction_, state.throughput * (scale_ * roulette_.scale())}});
+  left_.push_back({last_medium_,
+                   point.p,
+                   {&object, dot(given, point.ng) > 0},
+                   {last_, last_direction_, state.throughput * (scale_ * roulette_.scale())}});
 }
 
 }  // namespace turbid

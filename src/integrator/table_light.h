@@ -113,13 +113,13 @@ class TableLight {
   Spectrum looked_up(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
                      const PathState& state, Rng& rng) const;
   /// Adds `scale` times all that the light brings to the first collision of a visit of the sensor's walk, times what
-  /// the walk makes of it, the table's light times `balance`; nothing in another medium, and where even the shortest path of a sum is longer than `path`
-  /// allows.
+  /// the walk makes of it, the table's light times `balance`; nothing in another medium, and where even the shortest
+  /// path of a sum is longer than `path` allows.
   void at_collision(const EnteringLight& light, const BoundaryPlanes& boundaries, const CollisionEvent& event,
                     const PathState& state, const PathSettings& path, const Spectrum& balance, float scale, Rng& rng,
                     LightByOrder& sum) const;
-  /// source_radiance times the balance along a way of a sensor's walk that has entered unscattered, of finite length; `state` at its
-  /// beginning.
+  /// source_radiance times the balance along a way of a sensor's walk that has entered unscattered, of finite length;
+  /// `state` at its beginning.
   Spectrum along(const EnteringLight& light, const BoundaryPlanes& boundaries, const Ray& way, const PathState& state,
                  const PathSettings& path, const LightBalance& balance, Rng& rng) const;
 
@@ -159,7 +159,11 @@ class EnteringLightKeeper : public WalkRecorder {
  public:
   /// `scale`: a factor of the flux.
   EnteringLightKeeper(const Scene& scene, const TableLight& table, SampleCounters& counters, float scale = 1)
-      : scene_(scene), table_(table), counters_(counters), scale_(scale), roulette_(table.media(), table.measured() ? kMeasuredShare : VisitRoulette::kShare) {}
+      : scene_(scene),
+        table_(table),
+        counters_(counters),
+        scale_(scale),
+        roulette_(table.media(), table.measured() ? kMeasuredShare : VisitRoulette::kShare) {}
 
   /// For a new walk; what has entered before is kept.
   void begin(const Rng& rng) { roulette_.begin(rng); }

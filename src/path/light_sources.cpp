@@ -62,8 +62,9 @@ void LightSources::find_aims() {
     if (!(power > 0) || !ray || !(open || emitter.is_at_infinity())) continue;
     for (size_t t = 0; t < targets_.size(); ++t) {
       const Ball& target = targets_[t];
-      const float share = emitter.is_at_infinity() ? ray->pdf.pdf_a * kPi * sqr(target.radius)
-                                                   : (1 - cosine_of(target, emitter.bounds().center())) / 2;
+      const float cosine = emitter.is_at_infinity() ? 1 : cosine_of(target, emitter.bounds().center());
+      if (cosine == -1) continue;  // all around it
+      const float share = emitter.is_at_infinity() ? ray->pdf.pdf_a * kPi * sqr(target.radius) : (1 - cosine) / 2;
       aims_.push_back({s, t});
       powers.push_back(power * share);
     }
@@ -97,7 +98,7 @@ Spectrum LightSources::weigh(size_t source, const EmissionSample& ray) const {
     if (aims_[a].source != source) continue;
     const Ball& target = targets_[aims_[a].target];
     density += kAimed * aim_distribution_.prob(a) *
-               (!infinite ? cone_pdf_w(target, ray.origin, ray.direction)
+               (!infinite                                       ? cone_pdf_w(target, ray.origin, ray.direction)
                 : line_meets(target, ray.origin, ray.direction) ? 1 / (kPi * sqr(target.radius))
                                                                 : 0);
   }
@@ -120,8 +121,8 @@ std::optional<Emission> LightSources::sample(Sampler& sampler) const {
   if (!ray || ray->weight.is_black()) return std::nullopt;
   const Spectrum flux = aims_.empty() ? ray->weight / chosen.prob : weigh(index, *ray);
   if (flux.is_black()) return std::nullopt;
-  Emission emission{source.emitter, index, source.object, *ray, distribution_.prob(index), flux, source.medium,
-                    source.media};
+  Emission emission{source.emitter, index,         source.object, *ray, distribution_.prob(index),
+                    flux,           source.medium, source.media};
   if (sees_media_ && !source.stays_in_one_place) find_medium(source, emission);
   return emission;
 }

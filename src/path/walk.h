@@ -72,8 +72,8 @@ class Walk {
   }
   /// The same for a ray that begins elsewhere: in `medium`, or in scenes with priorities inside of the shapes
   /// `enclosing`.
-  float run(const SensorRay& camera, const Medium* medium, const MediumStack& enclosing) requires(
-      kMode == TransportMode::kRadiance) {
+  float run(const SensorRay& camera, const Medium* medium,
+            const MediumStack& enclosing) requires(kMode == TransportMode::kRadiance) {
     throughput_ = Spectrum(camera.weight);
     inverse_start_ = eta_scale_ = 1;
     depth_ = order_ = visit_order_ = 0;

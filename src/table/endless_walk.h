@@ -2,56 +2,55 @@
 #include <span>
 #include <vector>
 
-#include "core/rng.h"
-#include "core/vector.h"
-#include "medium/phase_function.h"
+#include "table/flights.h"
 
 namespace turbid {
 
-/// A random walk without end in an infinite, homogeneous medium that absorbs nothing; mean free path 1. The medium
-/// looks the same from everywhere, so every pair of its collisions (i, i + k) is a sample of k flights after a
-/// collision that was reached along the direction into i. Keeps the last collisions only.
-class EndlessWalk {
+/// Random walks without end in an infinite, homogeneous medium that absorbs nothing; mean free path 1. The medium looks
+/// the same from everywhere, so every pair of a walk's collisions (i, i + k) is a sample of k flights after a collision
+/// that was reached along the direction into i. Keeps the last collisions only. Eight independent walks side by side:
+/// each waits for its own last step alone, and lanes share the work.
+class EndlessWalks {
  public:
+  static constexpr size_t kCount = kLanes;
   struct Collision {
     Imath::V3d position;
     Vec3 direction;  ///< of the flight that ended here
   };
 
-  /// Keeps `reach` collisions before the latest.
-  EndlessWalk(const PhaseFunction& phase, size_t reach, uint64_t seed);
+  /// Keeps `reach` collisions of each walk before the latest. Walk i draws from the stream (seed, i).
+  EndlessWalks(const PhaseFunction& phase, size_t reach, uint64_t seed);
 
-  /// One scattering and one flight; four words of the random stream at most.
+  /// One scattering and one flight of each walk; about three words of each random stream.
   void step();
-  /// The collision `lag` before the latest, lag <= reach.
-  const Collision& back(size_t lag) const { return ring_[(latest_ - lag) & mask_]; }
-  Rng& rng() { return rng_; }
+  /// The collision of a walk `lag` before its latest, lag <= reach.
+  const Collision& back(size_t walk, size_t lag) const { return ring_[((latest_ - lag) & mask_) * kCount + walk]; }
+  Rng& rng(size_t walk) { return rngs_[walk]; }
 
-  /// What lies between two collisions.
-  struct Passage {
-    Vec3 ray;             ///< of the flight into the first one; its direction is `axis`
-    Vec3 axis;            ///< unit, into the first collision
-    Vec3 displacement;    ///< from the first to the last
-    Vec3 last_direction;  ///< unit, into the last one
+  /// What lies between two collisions, eight times.
+  struct Passages {
+    Vec3Lanes ray;             ///< of the flight into the first one; its direction is `axis`
+    Vec3Lanes axis;            ///< unit, into the first collision
+    Vec3Lanes displacement;    ///< from the first to the last
+    Vec3Lanes last_direction;  ///< unit, into the last one
   };
-  /// From the collision `flights` before the latest to the latest.
-  Passage latest(size_t flights) const { return passage(0, flights); }
-  /// The same for any collision that is remembered, by a random number of the walk's; flights < reach.
-  Passage any(size_t flights);
+  /// So many flights, each below the reach.
+  using Flights = std::array<size_t, kCount>;
+  /// Of each walk, from the collision that many flights before the latest to the latest.
+  Passages latest(const Flights& flights) const;
+  /// Each joined from one piece of each of the walks, drawn from all that is remembered and turned at random about the
+  /// direction in which it takes up; takes up to kCount times as many flights as are remembered. A walk has no memory
+  /// but its direction, so this too is a sample; but pairs of one walk that are far apart change slowly from step to
+  /// step, and joined ones do not.
+  Passages joined(const Flights& flights);
 
  private:
-  Passage passage(size_t end, size_t flights) const;
-
   const PhaseFunction& phase_;
-  Rng rng_;
-  size_t reach_;
-  std::vector<Collision> ring_;
-  size_t mask_, latest_ = 0;
+  std::array<Rng, kCount> rngs_;
+  size_t reach_, mask_, latest_ = 0;
+  std::vector<Collision> ring_;  ///< [collision][walk]
+  Vec3Lanes direction_;          ///< of the latest flights
+  std::array<std::array<double, kCount>, 3> position_{};
 };
-
-/// A passage of `flights` flights joined from one piece of each of these walks, turned at random about the direction in
-/// which it takes up. A walk has no memory but its direction, so this too is a sample; but pairs of one walk that are
-/// far apart change slowly from step to step, and joined ones do not. The walks must be independent.
-EndlessWalk::Passage join_passages(std::span<EndlessWalk> walks, size_t flights);
 
 }  // namespace turbid

@@ -129,13 +129,12 @@ LobeField::LobeField(const ScatteringTable& table, SourceKind kind, double albed
   }
 }
 
-LobeField::Corners LobeField::corners(float distance, float cosine) const {
-  const float r = std::max(distance, kNearest);
+LobeField::Corners LobeField::corners(float radial, float angular) const {
   const int last_i = grid_.radii() - 1, last_j = grid_.angles() - 1;
-  const float u = std::clamp(grid_.radial(std::min(r, edge_)) - 0.5f, 0.0f, static_cast<float>(last_i));
+  const float u = std::clamp(radial - 0.5f, 0.0f, static_cast<float>(last_i));
   const int i = std::min(static_cast<int>(u), last_i - 1);
   const float by_u = u - static_cast<float>(i);
-  const float t = grid_.angular(cosine) + 0.5f;  // from the middle of the cell before the first one
+  const float t = angular + 0.5f;  // from the middle of the cell before the first one
   const int j = std::min(static_cast<int>(t), last_j + 1) - 1;
   const float by_t = t - static_cast<float>(j + 1);
   // Beyond the first and the last nodes stand their mirror images on the other side of the axis.
@@ -144,31 +143,69 @@ LobeField::Corners LobeField::corners(float distance, float cosine) const {
   if (j == last_j) high *= SagittalHarmonics::alternating();
   const int j_low = std::max(j, 0), j_high = std::min(j + 1, last_j);
   const auto row = [&](int at_i, int at_j) { return nodes_.data() + grid_.index(at_i, at_j) * cell_size_; };
-  const float factor = (r > edge_ ? far_field_.ratio(r, edge_, cosine) : 1) / r;
   return {{row(i, j_low), row(i, j_high), row(i + 1, j_low), row(i + 1, j_high)},
-          {low * (1 - by_u), high * (1 - by_u), low * by_u, high * by_u},
-          factor};
+          {low * (1 - by_u), high * (1 - by_u), low * by_u, high * by_u}};
+}
+
+LobeField::Corners LobeField::corners_of(float distance, float cosine) const {
+  return corners(grid_.radial(std::min(distance, edge_)), grid_.angular(cosine));
+}
+
+float LobeField::factor(float distance, float cosine) const {
+  const float r = std::max(distance, kNearest);
+  return (r > edge_ ? far_field_.ratio(r, edge_, cosine) : 1) / r;
 }
 
 float LobeField::eval(const Vec3& x, const Vec3& axis, const Vec3& w) const {
   const SagittalView view(x, axis, w);
-  const Corners c = corners(view.distance, view.cosine);
+  const Corners c = corners_of(view.distance, view.cosine);
   Lanes sum(0.0f);
   size_t at = 0;
   SagittalHarmonics::for_each_degree(degree_, view.direction, [&](int, const Lanes& y) {
-    const auto row = [&](int k) { return SagittalHarmonics::load(c.rows[k] + at); };
-    sum += y * ((c.weights[0] * row(0) + c.weights[1] * row(1)) + (c.weights[2] * row(2) + c.weights[3] * row(3)));
+    sum += y * c.at(at);
     at += kOrders;
   });
-  return std::max(0.0f, std::experimental::reduce(sum)) * c.factor;
+  return std::max(0.0f, std::experimental::reduce(sum)) * factor(view.distance, view.cosine);
+}
+
+Lanes LobeField::eval(const Vec3Lanes& x, const Vec3& axis, const Vec3& w) const {
+  constexpr size_t kTogether = 4;
+  const SagittalViewLanes view(x, lanes_of(axis), lanes_of(w));
+  const LaneRow radial = to_row(grid_.radial(std::experimental::min(view.distance, Lanes(edge_)))),
+                angular = to_row(grid_.angular(view.cosine));
+  const LaneRow across = to_row(view.direction.x), off = to_row(view.direction.y), along = to_row(view.direction.z);
+  LaneRow result;
+  for (size_t first = 0; first < kLanes; first += kTogether) {
+    std::array<SagittalHarmonics::Direction, kTogether> directions;
+    std::array<Corners, kTogether> places;
+    std::array<Lanes, kTogether> sums;
+    for (size_t k = 0; k < kTogether; ++k) {
+      const size_t lane = first + k;
+      directions[k] = SagittalHarmonics::Direction({across[lane], off[lane], along[lane]});
+      places[k] = corners(radial[lane], angular[lane]);
+      sums[k] = Lanes(0.0f);
+    }
+    size_t at = 0;
+    SagittalHarmonics::for_each_degree(degree_, directions, [&](int, const std::array<Lanes, kTogether>& y) {
+      for (size_t k = 0; k < kTogether; ++k) sums[k] += y[k] * places[k].at(at);
+      at += kOrders;
+    });
+    for (size_t k = 0; k < kTogether; ++k) result[first + k] = std::experimental::reduce(sums[k]);
+  }
+  const Lanes inverse = 1 / std::experimental::max(view.distance, Lanes(kNearest));
+  const Lanes sum = std::experimental::max(load_lanes(result), Lanes(0.0f));
+  if (std::experimental::none_of(view.distance > edge_)) return sum * inverse;
+  LaneRow factors;
+  for (size_t lane = 0; lane < kLanes; ++lane) factors[lane] = factor(view.distance[lane], view.cosine[lane]);
+  return sum * load_lanes(factors);
 }
 
 float LobeField::density(const Vec3& x, const Vec3& axis) const {
   const SagittalView view(x, axis, axis);
-  const Corners c = corners(view.distance, view.cosine);
+  const Corners c = corners_of(view.distance, view.cosine);
   float sum = 0;
   for (int k = 0; k < 4; ++k) sum += c.weights[k][0] * c.rows[k][0];
-  return sum * c.factor * std::sqrt(4 * kPi);
+  return sum * factor(view.distance, view.cosine) * std::sqrt(4 * kPi);
 }
 
 }  // namespace turbid

@@ -88,6 +88,35 @@ Spectrum MultipleScattering::source_radiance(std::span<const WeightedStretch> li
   return sum;
 }
 
+MultipleScattering::LaneSpectrum MultipleScattering::from_collision(const Vec3& at, const Vec3& direction,
+                                                                    const Vec3Lanes& x, const Vec3& w) const {
+  LaneSpectrum result;
+  for (size_t c = 0; c < kChannels; ++c) {
+    const Channel& channel = channels_[c];
+    const Vec3Lanes from = (x - lanes_of(at)) * Lanes(channel.sigma_t);
+    result[c] = channel.light ? channel.volume_scale * channel.light->from_collision(from, direction, w) : Lanes(0.0f);
+  }
+  return result;
+}
+
+MultipleScattering::LaneSpectrum MultipleScattering::from_stretches(std::span<const WeightedStretch> lights,
+                                                                    const Vec3Lanes& x, const Vec3& w) const {
+  LaneSpectrum result;
+  for (size_t c = 0; c < kChannels; ++c) {
+    const Channel& channel = channels_[c];
+    Lanes sum(0.0f);
+    for (const auto& [light, weight] : lights) {
+      const float depth = light.length * channel.sigma_t;
+      if (!channel.light || !(depth > 0)) continue;
+      const Vec3Lanes from = (x - lanes_of(light.origin)) * Lanes(channel.sigma_t);
+      const Lanes value = channel.light->from_stretch(from, light.direction, depth, w);
+      sum += weight * std::experimental::max(value, Lanes(0.0f));
+    }
+    result[c] = channel.volume_scale * std::experimental::max(sum, Lanes(0.0f));
+  }
+  return result;
+}
+
 template <class Source>
 Spectrum MultipleScattering::integrate(const Stretch& view, float nearest, float distance, float u, int samples,
                                        const Source& source) const {
@@ -95,18 +124,26 @@ Spectrum MultipleScattering::integrate(const Stretch& view, float nearest, float
   if (!(length > 0)) return Spectrum();
   const Exponential by_transmittance(mean_sigma_t_, length);
   const Equiangular by_distance(std::clamp(nearest, 0.0f, length), std::max(distance, 1e-3f / mean_sigma_t_), length);
-  Spectrum sum;
-  const auto add = [&](float t) {
-    // Balance heuristic over both ways of placing points.
-    const float pdf_t = by_transmittance.pdf_t(t) + by_distance.pdf_t(t);
-    sum += exp(sigma_t_ * -t) * source(view.origin + view.direction * t, -view.direction) / pdf_t;
-  };
-  for (int i = 0; i < samples; ++i) {
-    const float stratum = (static_cast<float>(i) + u) / static_cast<float>(samples);
-    add(by_transmittance.sample(stratum));
-    add(by_distance.sample(stratum));
+  LaneSpectrum sum;
+  sum.fill(Lanes(0.0f));
+  const size_t points = 2 * static_cast<size_t>(samples);
+  for (size_t first = 0; first < points; first += kLanes) {
+    LaneRow depths{}, weights{};
+    for (size_t lane = 0; lane < std::min(kLanes, points - first); ++lane) {
+      const size_t point = first + lane;
+      const float stratum = (static_cast<float>(point / 2) + u) / static_cast<float>(samples);
+      const float t = depths[lane] = point % 2 == 0 ? by_transmittance.sample(stratum) : by_distance.sample(stratum);
+      // Balance heuristic over both ways of placing points.
+      weights[lane] = 1 / (by_transmittance.pdf_t(t) + by_distance.pdf_t(t));
+    }
+    const Lanes t = load_lanes(depths), weight = load_lanes(weights);
+    const LaneSpectrum light = source(lanes_of(view.origin) + lanes_of(view.direction) * t, -view.direction);
+    for (size_t c = 0; c < kChannels; ++c) sum[c] += exp_lanes(channels_[c].sigma_t * -t) * light[c] * weight;
   }
-  return sum / static_cast<float>(samples);
+  Spectrum result;
+  for (size_t c = 0; c < kChannels; ++c)
+    result[static_cast<int>(c)] = std::experimental::reduce(sum[c]) / static_cast<float>(samples);
+  return result;
 }
 
 Spectrum MultipleScattering::radiance(const Vec3& at, const Vec3& direction, const Stretch& view, float u,
@@ -114,7 +151,7 @@ Spectrum MultipleScattering::radiance(const Vec3& at, const Vec3& direction, con
   const float nearest = dot(at - view.origin, view.direction);
   const float distance = length(at - view.origin - view.direction * nearest);
   return integrate(view, nearest, distance, u, samples,
-                   [&](const Vec3& x, const Vec3& w) { return source_radiance(at, direction, x, w); });
+                   [&](const Vec3Lanes& x, const Vec3& w) { return from_collision(at, direction, x, w); });
 }
 
 Spectrum MultipleScattering::radiance(std::span<const WeightedStretch> lights, const Stretch& view, float u,
@@ -131,7 +168,7 @@ Spectrum MultipleScattering::radiance(std::span<const WeightedStretch> lights, c
   const float nearest = dot(at - view.origin, view.direction);
   const float distance = length(at - view.origin - view.direction * nearest);
   return integrate(view, nearest, distance, u, samples,
-                   [&](const Vec3& x, const Vec3& w) { return source_radiance(lights, x, w); });
+                   [&](const Vec3Lanes& x, const Vec3& w) { return from_stretches(lights, x, w); });
 }
 
 }  // namespace turbid

@@ -73,6 +73,10 @@ class MultipleScattering {
     std::shared_ptr<const ScatteredLight> light;  ///< null: the channel is black
     float sigma_t = 0, volume_scale = 0;          ///< sigma_t^3
   };
+  /// Source radiance at eight places.
+  using LaneSpectrum = std::array<Lanes, kChannels>;
+  LaneSpectrum from_collision(const Vec3& at, const Vec3& direction, const Vec3Lanes& x, const Vec3& w) const;
+  LaneSpectrum from_stretches(std::span<const WeightedStretch> lights, const Vec3Lanes& x, const Vec3& w) const;
   template <class Source>
   Spectrum integrate(const Stretch& view, float nearest, float distance, float u, int samples,
                      const Source& source) const;

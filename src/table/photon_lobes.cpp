@@ -7,56 +7,20 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "core/frame.h"
 #include "core/parallel.h"
 #include "core/rng.h"
+#include "table/arrival_lobes.h"
+#include "table/quadtree_content.h"
 #include "table/sagittal_view.h"
 #include "table/scattering_table.h"
+#include "table/seed_photons.h"
 
 namespace turbid {
 namespace {
 
 const Vec3 kAxis(0, 0, 1);
 
-/// One collision of a photon.
-struct Collision {
-  Vec3 position, direction;  ///< of the flight that ended there
-  Spectrum flux;             ///< that leaves it, per photon
-  int order;
-};
-
-/// Photons that collide at the origin, having travelled along +z.
-class Photons {
- public:
-  Photons(const PhaseFunction& phase, const Spectrum& albedo, const QuadtreeSettings& settings)
-      : phase_(phase), albedo_(albedo), largest_(albedo.max()), settings_(settings) {}
-
-  /// Calls visit(collision, rng) for all that count.
-  template <class Visit>
-  void follow(uint64_t photon, const Visit& visit) const {
-    Rng rng(hash_counters(settings_.seed, photon));
-    Collision at{Vec3(0), kAxis, albedo_, 1};
-    while (true) {
-      if (at.order >= settings_.from_order) {
-        visit(at, rng);
-        // The first collisions are sure.
-        if (!(rng.next_float() < largest_)) return;
-        at.flux /= largest_;
-      }
-      at.direction =
-          normalize(direction_about(at.direction, phase_.sample(rng.next_float()), 2 * kPi * rng.next_float()));
-      at.position += at.direction * -std::log(1 - rng.next_float());
-      at.flux *= albedo_;
-      ++at.order;
-    }
-  }
-
- private:
-  const PhaseFunction& phase_;
-  Spectrum albedo_;
-  float largest_;
-  QuadtreeSettings settings_;
-};
+using Collision = SeedPhotons::Collision;
 
 /// Where the collision lies when its photon began somewhere on the source: by its own share of the flux there.
 Vec3 seen_from(const Collision& collision, SourceKind kind, Rng& rng) {
@@ -66,75 +30,118 @@ Vec3 seen_from(const Collision& collision, SourceKind kind, Rng& rng) {
 
 Quadtree::Place place_of(const Vec3& x) { return {std::hypot(x.x, x.y), x.z}; }
 
-Quadtree pilot(const Photons& photons, SourceKind kind, float reach, const Quadtree::Limits& limits) {
+Quadtree pilot(const SeedPhotons& photons, SourceKind kind, float reach, const Quadtree::Limits& limits) {
   constexpr size_t kCollisions = 300'000;
-  constexpr uint64_t kMost = 200'000, kFirst = uint64_t{1} << 40;
+  constexpr uint64_t kMost = 200'000, kFirst = uint64_t{1} << 40, kTogether = 64;
   std::vector<Quadtree::Place> places;
-  for (uint64_t p = 0; p < kMost && places.size() < kCollisions; ++p)
-    photons.follow(kFirst + p, [&](const Collision& collision, Rng& rng) {
+  for (uint64_t p = 0; p < kMost && places.size() < kCollisions; p += kTogether)
+    photons.follow(kFirst + p, kFirst + p + kTogether, [&](const Collision& collision, Rng& rng) {
       places.push_back(place_of(seen_from(collision, kind, rng)));
     });
   return {reach, places, limits};
 }
 
-/// f by the sine of half the angle, in steps.
-class PhaseSteps {
- public:
-  explicit PhaseSteps(const PhaseFunction& phase) {
-    for (size_t i = 0; i < kSteps; ++i)
-      values_[i] = phase.eval_angle(2 * std::asin((static_cast<float>(i) + 0.5f) / kSteps));
-  }
-  void towards_all(const LobeDirections& directions, const Vec3& from, float* values) const {
-    // In two loops, which the compiler makes fast: steps first, then look-ups.
-    alignas(64) std::array<int32_t, LobeDirections::kCount> steps;
-    const Vec3 d = from;
-    for (size_t k = 0; k < LobeDirections::kCount; ++k) {
-      const float mu = directions.x[k] * d.x + directions.y[k] * d.y + directions.z[k] * d.z;
-      const float half_sine = std::sqrt(std::max(0.5f - 0.5f * mu, 0.0f));
-      steps[k] = static_cast<int32_t>(std::min(half_sine * kSteps, kSteps - 1.0f));
-    }
-    const float* const table = values_.data();
-    for (size_t k = 0; k < LobeDirections::kCount; ++k) values[k] = table[steps[k]];
-  }
-
- private:
-  static constexpr size_t kSteps = 2048;
-  std::array<float, kSteps> values_;
-};
-
 /// What a collision leaves in a cell.
 struct Deposit {
-  int leaf;
-  Vec3 direction;  ///< of the light that arrives, in the frame of SagittalView, on either side of its plane
+  uint32_t leaf, arrival;  ///< the step of ArrivalLobes
   Spectrum flux;
 };
 /// Cells are shared out among these.
 constexpr size_t kBlocks = 16;
 using Deposits = std::array<std::array<std::vector<Deposit>, kBlocks>, kSourceKinds>;
 
-/// A collision of a high order is put in with this probability.
-float chance(int order) { return std::min(1.0f, 8.0f / static_cast<float>(order)); }
+/// A collision of a high order is put in with this probability: as many of each octave.
+float chance(int order) { return std::min(1.0f, 8 / (static_cast<float>(order) * SeedPhotons::left(order))); }
 
-void collect(const Photons& photons, const std::array<PhotonLobes, kSourceKinds>& lobes, uint64_t first, uint64_t last,
-             Deposits& deposits) {
+void collect(const SeedPhotons& photons, const std::array<PhotonLobes, kSourceKinds>& lobes, uint64_t first,
+             uint64_t last, Deposits& deposits) {
   for (auto& of_kind : deposits)
     for (auto& block : of_kind) block.clear();
-  for (uint64_t photon = first; photon < last; ++photon)
-    photons.follow(photon, [&](const Collision& collision, Rng& rng) {
-      const float probability = chance(collision.order);
-      if (probability < 1 && !(rng.next_float() < probability)) return;
-      for (size_t k = 0; k < kSourceKinds; ++k) {
-        const Vec3 x = seen_from(collision, static_cast<SourceKind>(k), rng);
-        const Quadtree& tree = lobes[k].tree;
-        if (!tree.holds(place_of(x))) continue;
-        SagittalView view(x, kAxis, collision.direction);
-        // The light is even about the sagittal plane.
-        if (rng.next_float() < 0.5f) view.direction.y = -view.direction.y;
-        const int leaf = tree.find(place_of(x)).number;
-        deposits[k][static_cast<size_t>(leaf) % kBlocks].push_back(
-            {leaf, view.direction, collision.flux / probability});
+  photons.follow(first, last, [&](const Collision& collision, Rng& rng) {
+    const float probability = chance(collision.order);
+    if (probability < 1 && !(rng.next_float() < probability)) return;
+    for (size_t k = 0; k < kSourceKinds; ++k) {
+      const Vec3 x = seen_from(collision, static_cast<SourceKind>(k), rng);
+      const Quadtree::Place place = place_of(x);
+      const Quadtree& tree = lobes[k].tree;
+      if (!tree.holds(place)) continue;
+      const auto leaf = static_cast<uint32_t>(tree.find(place).number);
+      const uint32_t arrival = ArrivalLobes::step(SagittalView(x, kAxis, collision.direction).direction);
+      deposits[k][leaf % kBlocks].push_back({leaf, arrival, photons.flux(collision.order) / probability});
+    }
+  });
+}
+
+/// Adds a leaf's deposits to its lobes: several at once, so that the lobes are read and written but once for them.
+void put_in(std::span<const Deposit> deposits, const ArrivalLobes& arrivals, float* lobes) {
+  constexpr size_t kTogether = 4, kCount = LobeDirections::kCount;
+  static_assert(kCount % kLanes == 0);
+  for (size_t first = 0; first < deposits.size(); first += kTogether) {
+    std::array<const float*, kTogether> from;
+    std::array<Spectrum, kTogether> flux;
+    for (size_t k = 0; k < kTogether; ++k) {
+      const bool is_one = first + k < deposits.size();
+      from[k] = arrivals.lobe(deposits[is_one ? first + k : first].arrival);
+      flux[k] = is_one ? deposits[first + k].flux : Spectrum(0.0f);
+    }
+    for (size_t i = 0; i < kCount; i += kLanes) {
+      std::array<Lanes, kTogether> f;
+      for (size_t k = 0; k < kTogether; ++k) f[k] = load_lanes(from[k] + i);
+      for (size_t c = 0; c < kChannels; ++c) {
+        float* const to = lobes + c * kCount + i;
+        Lanes sum = load_lanes(to);
+        for (size_t k = 0; k < kTogether; ++k) sum += flux[k][static_cast<int>(c)] * f[k];
+        sum.copy_to(to, std::experimental::element_aligned);
       }
-    });
+    }
+  }
+}
+
+/// Of one block, leaf by leaf, so that each stays at hand.
+void put_in_block(const std::vector<Deposits>& batches, size_t kind, size_t block, const ArrivalLobes& arrivals,
+                  PhotonLobes& lobes) {
+  // Sorts by counting.
+  std::vector<size_t> ends(lobes.tree.leaf_count() + 1);
+  size_t count = 0;
+  for (const Deposits& batch : batches)
+    for (const Deposit& deposit : batch[kind][block]) {
+      ++ends[deposit.leaf + 1];
+      ++count;
+    }
+  for (size_t leaf = 1; leaf < ends.size(); ++leaf) ends[leaf] += ends[leaf - 1];
+  std::vector<Deposit> sorted(count);
+  for (const Deposits& batch : batches)
+    for (const Deposit& deposit : batch[kind][block]) sorted[ends[deposit.leaf]++] = deposit;
+  // Each leaf now begins where the one before it ends.
+  for (size_t leaf = 0; leaf < lobes.tree.leaf_count(); ++leaf) {
+    const size_t begin = leaf > 0 ? ends[leaf - 1] : 0;
+    put_in(std::span(sorted).subspan(begin, ends[leaf] - begin), arrivals,
+           lobes.values.data() + leaf * kChannels * LobeDirections::kCount);
+  }
+}
+
+/// From what photons of this flux left in each cell to lobes at the cells' middles, and factors.
+void keep_contents(PhotonLobes& lobes, double flux) {
+  static const LobeDirections directions;
+  const QuadtreeContent content(lobes.tree);
+  const size_t leaves = lobes.tree.leaf_count();
+  lobes.factors.resize(leaves * kChannels);
+  parallel_for(kChannels, [&](size_t channel) {
+    const auto lobe = [&](size_t leaf) {
+      return std::span(lobes.values)
+          .subspan((leaf * kChannels + channel) * LobeDirections::kCount, LobeDirections::kCount);
+    };
+    std::vector<double> contents(leaves);
+    for (size_t leaf = 0; leaf < leaves; ++leaf)
+      for (size_t k = 0; k < LobeDirections::kCount; ++k)
+        contents[leaf] += flux * static_cast<double>(lobe(leaf)[k] * directions.solid_angle[k]);
+    const QuadtreeContent::Field field = content.to_field(contents);
+    for (size_t leaf = 0; leaf < leaves; ++leaf) {
+      const auto scale = static_cast<float>(contents[leaf] > 0 ? flux * field.values[leaf] / contents[leaf] : 0);
+      for (float& value : lobe(leaf)) value *= scale;
+      lobes.factors[leaf * kChannels + channel] = static_cast<float>(field.factors[leaf]);
+    }
+  });
 }
 
 }  // namespace
@@ -181,14 +188,14 @@ std::array<PhotonLobes, kSourceKinds> simulate_photons(const PhaseFunction& phas
         fmt::format("tables of multiple scattering hold albedos from 0 to {}, not {}: scattering without end has no "
                     "sum. Use the method without a table, or let the medium absorb a little",
                     kLargestAlbedo, albedo.max()));
-  const Photons photons(phase, albedo, settings);
+  const SeedPhotons photons(phase, albedo, settings);
   const float reach = reach_of(static_cast<double>(phase.mean_cosine()));
-  std::array<PhotonLobes, kSourceKinds> lobes = {PhotonLobes{pilot(photons, SourceKind::kCollision, reach, limits), {}},
-                                                 PhotonLobes{pilot(photons, SourceKind::kRay, reach, limits), {}}};
+  std::array<PhotonLobes, kSourceKinds> lobes = {
+      PhotonLobes{pilot(photons, SourceKind::kCollision, reach, limits), {}, {}},
+      PhotonLobes{pilot(photons, SourceKind::kRay, reach, limits), {}, {}}};
   constexpr size_t kCell = kChannels * LobeDirections::kCount;
   for (PhotonLobes& kind : lobes) kind.values.resize(kind.tree.leaf_count() * kCell);
-  const PhaseSteps steps(phase);
-  const LobeDirections directions;
+  const ArrivalLobes arrivals(phase);
   // Rounds: some threads follow photons, then some put what they found into the cells that are theirs, in order.
   constexpr uint64_t kBatches = 32, kPhotons = 512;
   std::vector<Deposits> batches(kBatches);
@@ -198,31 +205,13 @@ std::array<PhotonLobes, kSourceKinds> simulate_photons(const PhaseFunction& phas
       collect(photons, lobes, first, std::clamp<uint64_t>(settings.photons, first, first + kPhotons), batches[b]);
     });
     parallel_for(kSourceKinds * kBlocks, [&](size_t task) {
-      const size_t kind = task / kBlocks, block = task % kBlocks;
-      alignas(64) std::array<float, LobeDirections::kCount> values;
-      // Cell by cell, so that each stays at hand.
-      std::vector<const Deposit*> sorted;
-      for (const Deposits& batch : batches)
-        for (const Deposit& deposit : batch[kind][block]) sorted.push_back(&deposit);
-      std::stable_sort(sorted.begin(), sorted.end(),
-                       [](const Deposit* a, const Deposit* b) { return a->leaf < b->leaf; });
-      for (const Deposit* deposit : sorted) {
-        steps.towards_all(directions, deposit->direction, values.data());
-        float* cell = lobes[kind].values.data() + static_cast<size_t>(deposit->leaf) * kCell;
-        for (int c = 0; c < kChannels; ++c, cell += LobeDirections::kCount) {
-          const float flux = deposit->flux[c];
-          for (size_t k = 0; k < LobeDirections::kCount; ++k) cell[k] += flux * values[k];
-        }
-      }
+      const size_t kind = task / kBlocks;
+      put_in_block(batches, kind, task % kBlocks, arrivals, lobes[kind]);
     });
   }
-  for (size_t k = 0; k < kSourceKinds; ++k) {
-    const double flux = k == static_cast<size_t>(SourceKind::kRay) ? -std::expm1(-double{kUnitSegment}) : 1;
-    for (const Quadtree::Leaf& leaf : lobes[k].tree.leaves()) {
-      const auto scale = static_cast<float>(flux / (static_cast<double>(settings.photons) * Quadtree::volume(leaf)));
-      float* cell = lobes[k].values.data() + static_cast<size_t>(leaf.number) * kCell;
-      for (size_t i = 0; i < kCell; ++i) cell[i] *= scale;
-    }
+  for (const SourceKind kind : {SourceKind::kCollision, SourceKind::kRay}) {
+    const double flux = kind == SourceKind::kRay ? -std::expm1(-double{kUnitSegment}) : 1;
+    keep_contents(lobes[static_cast<size_t>(kind)], flux / static_cast<double>(settings.photons));
   }
   return lobes;
 }

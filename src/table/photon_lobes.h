@@ -39,7 +39,11 @@ class LobeDirections {
 /// free path 1, the albedo of each channel inside.
 struct PhotonLobes {
   Quadtree tree;
-  std::vector<float> values;  ///< [leaf][channel][direction]: source radiance, 1/sr per cubic mean free path
+  /// [leaf][channel][direction]: source radiance at a leaf's middle, 1/sr per cubic mean free path.
+  std::vector<float> values;
+  /// [leaf][channel]: what the interpolant is multiplied by within a leaf, so that it puts into the leaf what photons
+  /// did: between middles light falls off steeply and bends upwards, where interpolation adds to it.
+  std::vector<float> factors;
 
   const float* lobe(size_t leaf, size_t channel) const {
     return values.data() + (leaf * kChannels + channel) * LobeDirections::kCount;
@@ -51,9 +55,10 @@ float reach_of(double mean_cosine);
 
 /// Simulates light from a collision and light that sets out along a unit segment, unscattered, by the same photons:
 /// each collision is one of the first kind, and of the second when its photon began somewhere on the segment. A pilot
-/// of 300,000 collisions cuts the cells. Photons go on by chance, with the largest channel's albedo. Late collisions
-/// are put in seldom and count more, as they tell little that their neighbours do not. Depends on the seed alone, not
-/// on the number of threads. Throws std::invalid_argument, with advice, for albedos above kLargestAlbedo.
+/// of 300,000 collisions cuts the cells. Photons go on by chance, with the largest channel's albedo, late ones more
+/// seldom (SeedPhotons). Late collisions are put in seldom and count more, as they tell little that their neighbours do
+/// not. Light that arrives is sorted into steps of 1.25 degrees (ArrivalLobes). Depends on the seed alone, not on the
+/// number of threads. Throws std::invalid_argument, with advice, for albedos above kLargestAlbedo.
 std::array<PhotonLobes, kSourceKinds> simulate_photons(const PhaseFunction& phase, const Spectrum& albedo,
                                                        const QuadtreeSettings& settings,
                                                        const Quadtree::Limits& limits = {});

@@ -46,6 +46,16 @@ float PolarGrid::angular(float cosine) const {
          (static_cast<float>(kLinear) * s + static_cast<float>(1 - kLinear) * std::sqrt(s));
 }
 
+Lanes PolarGrid::radial(const Lanes& r) const {
+  return radial_scale_ * log_lanes(1 + r * static_cast<float>(1 / kScale));
+}
+
+Lanes PolarGrid::angular(const Lanes& cosine) const {
+  const Lanes s = safe_sqrt((1 - cosine) / 2);
+  return static_cast<float>(angles_) *
+         (static_cast<float>(kLinear) * s + static_cast<float>(1 - kLinear) * std::experimental::sqrt(s));
+}
+
 double PolarGrid::radius(double cells) const {
   return kScale * std::expm1(cells / radii_ * std::log1p(outer_ / kScale));
 }

@@ -2,6 +2,8 @@
 #include <span>
 #include <vector>
 
+#include "table/lanes.h"
+
 namespace turbid {
 
 /// Cells around a source that shines along +z, in polar coordinates: the distance r from it (mean free paths) and the
@@ -29,6 +31,9 @@ class PolarGrid {
   float radial(float r) const;
   /// Where cos(Theta) lies, in cells from the axis.
   float angular(float cosine) const;
+  /// The same of eight places.
+  Lanes radial(const Lanes& r) const;
+  Lanes angular(const Lanes& cosine) const;
   /// Radius of the middle of a cell.
   double middle(int i) const { return radius(i + 0.5); }
   double radius(double cells) const;

@@ -22,8 +22,9 @@ uint64_t checksum(const QuadtreeTable& table) {
       hash_counters(table.settings.seed, table.settings.photons, static_cast<uint64_t>(table.settings.from_order));
   h = hdf5::hash(table.moments, hdf5::hash(values_of(table.albedo), h));
   for (const QuadtreeTable::Kind& kind : table.kinds)
-    h = hdf5::hash(kind.lobes,
-                   hdf5::hash(kind.tree.nodes(), hash_counters(h, std::bit_cast<uint32_t>(kind.tree.reach()))));
+    h = hdf5::hash(kind.factors,
+                   hdf5::hash(kind.lobes, hdf5::hash(kind.tree.nodes(),
+                                                     hash_counters(h, std::bit_cast<uint32_t>(kind.tree.reach())))));
   return h;
 }
 
@@ -44,6 +45,8 @@ void write(hid_t file, const QuadtreeTable& table) {
                      k == 0 ? "[leaf] angle of the axis, 18 samples of each channel"
                             : "[leaf] angle of the axis, 18 samples of each channel, 18 ratios of the other side, 18 "
                               "of the coronal section");
+    hdf5::write_data(file, group + "/factors", table.kinds[k].factors,
+                     "[leaf][channel] of the interpolant within the leaf");
   }
 }
 
@@ -55,7 +58,9 @@ QuadtreeTable read(hid_t file) {
     try {
       Quadtree tree(reach, hdf5::read_data_up_to<int>(file, group + "/nodes", kMostNodes));
       const size_t size = tree.leaf_count() * SampledLobe::size(k == static_cast<size_t>(SourceKind::kRay));
-      return QuadtreeTable::Kind{std::move(tree), hdf5::read_data<float>(file, group + "/lobes", size)};
+      const size_t factors = tree.leaf_count() * kChannels;
+      return QuadtreeTable::Kind{std::move(tree), hdf5::read_data<float>(file, group + "/lobes", size),
+                                 hdf5::read_data<float>(file, group + "/factors", factors)};
     } catch (const std::invalid_argument&) {
       throw hdf5::Refused{"its cells are no quadtree"};
     }

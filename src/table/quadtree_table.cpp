@@ -6,6 +6,7 @@
 #include "core/gauss_legendre.h"
 #include "core/parallel.h"
 #include "table/phase_moments.h"
+#include "table/quadtree_content.h"
 #include "table/sagittal_view.h"
 
 namespace turbid {
@@ -27,10 +28,27 @@ class QuadtreeLight final : public ScatteredLight {
     for (; begin + kUnitSegment <= depth && begin < kFarthest; begin += kUnitSegment)
       sum += std::exp(-begin) * segment_.eval(x - axis * begin, axis, w);
     if (begin >= kFarthest || !(depth > begin)) return sum;
-    return sum + std::exp(-begin) * collisions_of_stretch(collision_, depth - begin, x - axis * begin, axis, w);
+    return sum + std::exp(-begin) * collisions_of_stretch(depth - begin, x - axis * begin, axis,
+                                                          [&](const Vec3& at) { return collision_.eval(at, axis, w); });
+  }
+  Lanes from_collision(const Vec3Lanes& x, const Vec3& axis, const Vec3& w) const override {
+    return for_each_lane(x, [&](const Vec3& at) { return from_collision(at, axis, w); });
+  }
+  Lanes from_stretch(const Vec3Lanes& x, const Vec3& axis, float depth, const Vec3& w) const override {
+    return for_each_lane(x, [&](const Vec3& at) { return from_stretch(at, axis, depth, w); });
   }
 
  private:
+  template <class Value>
+  static Lanes for_each_lane(const Vec3Lanes& x, const Value& value) {
+    // Numbers first: with lanes at hand the calls of the mathematical library below would take four times as long.
+    const std::array<LaneRow, 3> places{to_row(x.x), to_row(x.y), to_row(x.z)};
+    LaneRow row;
+    for (size_t lane = 0; lane < kLanes; ++lane)
+      row[lane] = value(Vec3(places[0][lane], places[1][lane], places[2][lane]));
+    return load_lanes(row);
+  }
+
   QuadtreeField collision_, segment_;
 };
 
@@ -38,31 +56,12 @@ Quadtree::Place place_of(const SagittalView& view) {
   return {view.distance * safe_sqrt(1 - view.cosine * view.cosine), view.distance * view.cosine};
 }
 
-/// Light falls off steeply and bends upwards within large cells, where interpolation adds to it: one factor for all of
-/// a channel's lobes makes that good in the whole.
-void keep_energy(QuadtreeTable& table, SourceKind kind, int channel) {
-  QuadtreeTable::Kind& of_kind = table.kinds[static_cast<size_t>(kind)];
-  double held = 0;
-  for (const Quadtree::Leaf& leaf : of_kind.tree.leaves())
-    held += Quadtree::volume(leaf) *
-            static_cast<double>(of_kind.lobe(kind, static_cast<size_t>(leaf.number)).integral(channel));
-  // The field looks at the table for no longer than this.
-  const std::shared_ptr<const QuadtreeTable> borrowed(std::shared_ptr<void>(), &table);
-  const double found = measure_moments(QuadtreeField(borrowed, kind, channel), of_kind.tree).energy;
-  if (!(found > 0)) return;
-  const size_t size = SampledLobe::size(kind == SourceKind::kRay), curve = SampledLobe::kSamples;
-  for (size_t leaf = 0; leaf < of_kind.tree.leaf_count(); ++leaf) {
-    float* values = of_kind.lobes.data() + leaf * size + 1 + static_cast<size_t>(channel) * curve;
-    for (size_t i = 0; i < curve; ++i) values[i] *= static_cast<float>(held / found);
-  }
-}
-
 }  // namespace
 
 size_t QuadtreeTable::size() const {
   size_t bytes = moments.size() * sizeof(double);
   for (const Kind& kind : kinds)
-    bytes += kind.tree.nodes().size() * sizeof(int32_t) + kind.lobes.size() * sizeof(float);
+    bytes += kind.tree.nodes().size() * sizeof(int32_t) + (kind.lobes.size() + kind.factors.size()) * sizeof(float);
   return bytes;
 }
 
@@ -72,7 +71,7 @@ QuadtreeTable compress_lobes(const std::array<PhotonLobes, kSourceKinds>& lobes,
     const PhotonLobes& of_kind = lobes[static_cast<size_t>(kind)];
     const bool asymmetric = kind == SourceKind::kRay;
     const size_t size = SampledLobe::size(asymmetric);
-    QuadtreeTable::Kind result{of_kind.tree, std::vector<float>(of_kind.tree.leaf_count() * size)};
+    QuadtreeTable::Kind result{of_kind.tree, std::vector<float>(of_kind.tree.leaf_count() * size), of_kind.factors};
     parallel_for(of_kind.tree.leaf_count(), [&](size_t leaf) {
       SampledLobe::fit(of_kind.lobe(leaf, 0), asymmetric, result.lobes.data() + leaf * size);
     });
@@ -80,8 +79,6 @@ QuadtreeTable compress_lobes(const std::array<PhotonLobes, kSourceKinds>& lobes,
   };
   QuadtreeTable table{
       legendre_moments(phase, 64), albedo, settings, {fit_all(SourceKind::kCollision), fit_all(SourceKind::kRay)}};
-  for (const SourceKind kind : {SourceKind::kCollision, SourceKind::kRay})
-    for (int c = 0; c < kChannels; ++c) keep_energy(table, kind, c);
   return table;
 }
 
@@ -91,13 +88,18 @@ QuadtreeTable build_quadtree_table(const PhaseFunction& phase, const Spectrum& a
 }
 
 QuadtreeField::QuadtreeField(std::shared_ptr<const QuadtreeTable> table, SourceKind kind, int channel)
-    : owner_(table), tree_(&table->kind(kind).tree), sampled_(&table->kind(kind)), kind_(kind), channel_(channel) {
+    : owner_(table),
+      tree_(&table->kind(kind).tree),
+      sampled_(&table->kind(kind)),
+      kind_(kind),
+      channel_(channel),
+      factors_(sampled_->factors.data()) {
   for (size_t leaf = 0; leaf < tree_->leaf_count(); ++leaf)
     densities_.push_back(sampled_->lobe(kind, leaf).integral(channel));
 }
 
 QuadtreeField::QuadtreeField(std::shared_ptr<const PhotonLobes> lobes, int channel)
-    : owner_(lobes), tree_(&lobes->tree), computed_(lobes.get()), channel_(channel) {
+    : owner_(lobes), tree_(&lobes->tree), computed_(lobes.get()), channel_(channel), factors_(lobes->factors.data()) {
   static const LobeDirections directions;
   for (size_t leaf = 0; leaf < tree_->leaf_count(); ++leaf) {
     float sum = 0;
@@ -112,24 +114,13 @@ float QuadtreeField::lobe(size_t leaf, const Vec3& direction) const {
                   : LobeDirections::interpolate(computed_->lobe(leaf, static_cast<size_t>(channel_)), direction);
 }
 
-/// value(leaf, mirrored) at the middles of four cells of the size of that at the place; mirrored: a cell beyond the
-/// source's axis, whose sagittal plane points the other way.
 template <class Value>
 float QuadtreeField::interpolate(const Quadtree::Place& place, const Value& value) const {
   if (!tree_->holds(place)) return 0;
-  const Quadtree::Leaf own = tree_->find(place);
-  const float middle_rho = own.rho + own.size / 2, middle_z = own.z + own.size / 2;
-  const float by_rho = std::abs(place.rho - middle_rho) / own.size, by_z = std::abs(place.z - middle_z) / own.size;
-  const float next_rho = middle_rho + std::copysign(own.size, place.rho - middle_rho);
-  const float next_z = middle_z + std::copysign(own.size, place.z - middle_z);
-  // Beyond the edge its cells go on.
-  const auto at = [&](float rho, float z) {
-    const Quadtree::Place there{std::abs(rho), z};
-    const Quadtree::Leaf leaf = tree_->holds(there) ? tree_->find(there) : own;
-    return value(static_cast<size_t>(leaf.number), rho < 0);
-  };
-  return (1 - by_z) * ((1 - by_rho) * value(static_cast<size_t>(own.number), false) + by_rho * at(next_rho, middle_z)) +
-         by_z * ((1 - by_rho) * at(middle_rho, next_z) + by_rho * at(next_rho, next_z));
+  const QuadtreeCorners corners(*tree_, place);
+  float sum = 0;
+  for (size_t k = 0; k < 4; ++k) sum += corners.weights[k] * value(corners.leaves[k], corners.beyond[k]);
+  return sum * factors_[corners.leaves[0] * kChannels + static_cast<size_t>(channel_)];
 }
 
 float QuadtreeField::eval(const Vec3& x, const Vec3& axis, const Vec3& w) const {

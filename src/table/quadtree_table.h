@@ -11,7 +11,8 @@ namespace turbid {
 struct QuadtreeTable {
   struct Kind {
     Quadtree tree;
-    std::vector<float> lobes;  ///< [leaf] a SampledLobe each
+    std::vector<float> lobes;    ///< [leaf] a SampledLobe each
+    std::vector<float> factors;  ///< [leaf][channel] of PhotonLobes
     SampledLobe lobe(SourceKind kind, size_t leaf) const {
       const bool asymmetric = kind == SourceKind::kRay;
       return {lobes.data() + leaf * SampledLobe::size(asymmetric), asymmetric};
@@ -60,6 +61,7 @@ class QuadtreeField final : public LightField {
   const PhotonLobes* computed_ = nullptr;
   SourceKind kind_ = SourceKind::kCollision;
   int channel_;
+  const float* factors_;          ///< [leaf][channel]
   std::vector<float> densities_;  ///< per leaf
 };
 

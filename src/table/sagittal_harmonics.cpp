@@ -26,4 +26,16 @@ SagittalHarmonics::Recurrence::Recurrence() {
   }
 }
 
+void SagittalHarmonics::add_to(float* sums, int degree, std::span<const Vec3> directions) {
+  constexpr size_t kTogether = 4;
+  for (size_t first = 0; first < directions.size(); first += kTogether) {
+    std::array<Direction, kTogether> w;
+    for (size_t k = 0; k < std::min(kTogether, directions.size() - first); ++k) w[k] = Direction(directions[first + k]);
+    for_each_degree(degree, w, [&](int l, const std::array<Lanes, kTogether>& y) {
+      float* const row = sums + l * kOrders;
+      (load_lanes(row) + ((y[0] + y[1]) + (y[2] + y[3]))).copy_to(row, std::experimental::element_aligned);
+    });
+  }
+}
+
 }  // namespace turbid

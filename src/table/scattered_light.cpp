@@ -5,9 +5,9 @@
 namespace turbid {
 namespace {
 
-/// Below these optical lengths a stretch of light is looked up as collisions at their mean depth, and at three depths:
-/// b(z) - e^-D b(z - D) would be the small difference of large numbers, and their noise grows by 1/(1 - e^-D).
-constexpr float kShortest = 0.2f, kShort = 1;
+/// Below this optical length a stretch of light is looked up as collisions along it: b(z) - e^-D b(z - D) would be the
+/// small difference of large numbers, and their noise grows by 1/(1 - e^-D).
+constexpr float kShort = 1;
 /// Beyond it nothing is left of the light.
 constexpr float kLong = 30;
 
@@ -21,12 +21,24 @@ class ExactLight final : public ScatteredLight {
     return collision_.eval(x, axis, w);
   }
   float from_stretch(const Vec3& x, const Vec3& axis, float depth, const Vec3& w) const override {
-    if (depth < kShort) return collisions_of_stretch(collision_, depth, x, axis, w);
-    const float whole = ray_.eval(x, axis, w);
-    return depth < kLong ? whole - std::exp(-depth) * ray_.eval(x - axis * depth, axis, w) : whole;
+    return stretch<float>(x, axis, axis, depth, w);
+  }
+  Lanes from_collision(const Vec3Lanes& x, const Vec3& axis, const Vec3& w) const override {
+    return collision_.eval(x, axis, w);
+  }
+  Lanes from_stretch(const Vec3Lanes& x, const Vec3& axis, float depth, const Vec3& w) const override {
+    return stretch<Lanes>(x, lanes_of(axis), axis, depth, w);
   }
 
  private:
+  template <class Real, class Vector>
+  Real stretch(const Vector& x, const Vector& along, const Vec3& axis, float depth, const Vec3& w) const {
+    if (depth < kShort)
+      return collisions_of_stretch(depth, x, along, [&](const Vector& at) { return collision_.eval(at, axis, w); });
+    const Real whole = ray_.eval(x, axis, w);
+    return depth < kLong ? whole - std::exp(-depth) * ray_.eval(x - along * Real(depth), axis, w) : whole;
+  }
+
   LobeField collision_, ray_;
 };
 
@@ -42,19 +54,6 @@ ChannelLights exact_lights(const HomogeneousMedium& medium, const ScatteringTabl
     if (!lights[c]) lights[c] = std::make_shared<ExactLight>(table, static_cast<double>(albedo), from_order);
   }
   return lights;
-}
-
-float collisions_of_stretch(const LightField& collision, float depth, const Vec3& x, const Vec3& axis, const Vec3& w) {
-  const float collided = -std::expm1(-depth);
-  if (depth < kShortest) {
-    const float mean_depth = depth < 1e-2f ? depth / 2 : 1 - depth * std::exp(-depth) / collided;
-    return collided * collision.eval(x - axis * mean_depth, axis, w);
-  }
-  // Gauss-Legendre in the probability to have collided.
-  float sum = 0;
-  for (const auto& [node, weight] : {std::pair{0.1127017f, 5.0f / 18}, {0.5f, 8.0f / 18}, {0.8872983f, 5.0f / 18}})
-    sum += weight * collision.eval(x + axis * std::log1p(-node * collided), axis, w);
-  return collided * sum;
 }
 
 }  // namespace turbid

@@ -19,6 +19,10 @@ class ScatteredLight {
   /// At x from where light sets out along `axis`, to collide within `depth` > 0 mean free paths (which may be
   /// infinite). May be below 0 by noise.
   virtual float from_stretch(const Vec3& x, const Vec3& axis, float depth, const Vec3& w) const = 0;
+
+  /// The same at eight places.
+  virtual Lanes from_collision(const Vec3Lanes& x, const Vec3& axis, const Vec3& w) const = 0;
+  virtual Lanes from_stretch(const Vec3Lanes& x, const Vec3& axis, float depth, const Vec3& w) const = 0;
 };
 
 /// One for each channel; null: the channel is black.
@@ -29,8 +33,21 @@ using ChannelLights = std::array<std::shared_ptr<const ScatteredLight>, kChannel
 /// theirs. Throws std::invalid_argument as LobeField does.
 ChannelLights exact_lights(const HomogeneousMedium& medium, const ScatteringTable& table, int from_order = 3);
 
-/// int_0^depth e^-t r(x - t axis, w) dt of a short stretch, r the light of collisions: by one collision in their mean
-/// depth below 0.2, else by three.
-float collisions_of_stretch(const LightField& collision, float depth, const Vec3& x, const Vec3& axis, const Vec3& w);
+/// int_0^depth e^-t r(x - t axis) dt of a short stretch, r the light of collisions at a place: by one collision in
+/// their mean depth below 0.2, else by three.
+template <class Vector, class Collision>
+auto collisions_of_stretch(float depth, const Vector& x, const Vector& axis, const Collision& collision) {
+  const float collided = -std::expm1(-depth);
+  using Real = decltype(collision(x));
+  if (depth < 0.2f) {
+    const float mean_depth = depth < 1e-2f ? depth / 2 : 1 - depth * std::exp(-depth) / collided;
+    return collided * collision(x - axis * Real(mean_depth));
+  }
+  // Gauss-Legendre in the probability to have collided.
+  Real sum(0.0f);
+  for (const auto& [node, weight] : {std::pair{0.1127017f, 5.0f / 18}, {0.5f, 8.0f / 18}, {0.8872983f, 5.0f / 18}})
+    sum += weight * collision(x + axis * Real(std::log1p(-node * collided)));
+  return collided * sum;
+}
 
 }  // namespace turbid

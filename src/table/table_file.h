@@ -7,7 +7,7 @@
 namespace turbid {
 
 /// Raised whenever the format of files changes, or what is in them: it is part of their names.
-inline constexpr int kTableVersion = 2;
+inline constexpr int kTableVersion = 3;
 
 /// A table as an HDF5 file in memory: version, shape, Legendre moments, seed, and per source kind the data sets
 /// "density", "largest", "ratios" with what they hold in words; compressed, with a checksum over all of it. The bytes

@@ -94,8 +94,20 @@ class RadialLight final : public ScatteredLight {
       sum += from_collision(x + axis * std::log1p(-caught * (static_cast<float>(i) + 0.5f) / kAlong), axis, w) / kAlong;
     return caught * sum;
   }
+  Lanes from_collision(const Vec3Lanes& x, const Vec3& axis, const Vec3& w) const override {
+    return each(x, [&](const Vec3& one) { return from_collision(one, axis, w); });
+  }
+  Lanes from_stretch(const Vec3Lanes& x, const Vec3& axis, float depth, const Vec3& w) const override {
+    return each(x, [&](const Vec3& one) { return from_stretch(one, axis, depth, w); });
+  }
 
  private:
+  template <class At>
+  static Lanes each(const Vec3Lanes& x, const At& at) {
+    LaneRow row;
+    for (size_t i = 0; i < kLanes; ++i) row[i] = at({x.x[i], x.y[i], x.z[i]});
+    return load_lanes(row);
+  }
   Fluence fluence_;
 };
 MultipleScattering medium_of(RadialLight::Fluence fluence) {

@@ -99,8 +99,7 @@ std::string bright_ball(bool floor) {
   return scene(content + (floor ? kFloor : ""), "", kPinhole);
 }
 
-// The table as published is coarser, but of the same light: its cells and lobes blur what is within a mean free path of
-// the lamp, which takes about 3 % from this picture.
+// The table as published is coarser, but of the same light.
 TEST(TableLight, ModeSeedIsNearTheExactTable) {
   TableSettings exact = settings_for_tests(), seed = exact;
   seed.mode = TableSettings::Mode::kSeed;
@@ -112,16 +111,15 @@ TEST(TableLight, ModeSeedIsNearTheExactTable) {
     EXPECT_LT(agreement.ratio_error[0], 0.015) << agreement.report();
     return agreement.mean_ratio[0];
   };
-  EXPECT_NEAR(ratio(1), 0.98, 0.05);
-  EXPECT_GT(std::abs(ratio(0.9) - 0.98), 0.05) << "a brightness of 0.9 is not noticed";
+  EXPECT_NEAR(ratio(1), 1, 0.05);
+  EXPECT_GT(std::abs(ratio(0.9) - 1), 0.05) << "a brightness of 0.9 is not noticed";
 }
 
 // What the table stands for, all find alike.
 TEST(TableLight, IntegratorsAgreeOnIt) {
-  for (const auto& [images, measured] : {std::pair{false, false}, {true, false}, {false, true}}) {
+  for (const bool images : {false, true}) {
     TableSettings table = settings_for_tests();
     table.images = images;
-    table.measured = measured;
     const PathSettings path{.min_scattering = 3};
     const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 6, 1);
     expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2), 0.01);
@@ -131,13 +129,24 @@ TEST(TableLight, IntegratorsAgreeOnIt) {
   }
 }
 
-// A thin ball that reflects inside, in even light from all sides: measured, it shines as walks say, where the table alone
-// is far off.
+// So they do where it is weighed by what leaves; each has sets of its own for that.
+TEST(TableLight, SlowIntegratorsAgreeOnWhatIsMeasured) {
+  TableSettings table = settings_for_tests();
+  table.measured = true;
+  const PathSettings path{.min_scattering = 3};
+  const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 6, 1);
+  expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2), 0.01);
+  expect_same_light("volpath", vrl, observe_by(bright_ball(false), make_volpath(path, table), 128, 3), 0.03);
+  expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2, 1.05),
+                    0.01, false);
+}
+
+// A thin ball that reflects inside, in even light from all sides: measured, it shines as walks say, where the table
+// alone is far off.
 TEST(TableLight, MeasuredLeavesAsMuchAsWalksBring) {
-  const std::string lit = scene(
-      R"(<emitter type="constant"><rgb name="radiance" value="1, 2, 1.5"/></emitter>)" +
-          glass("0, 0, 0.8", 1.1f, medium("interior", "2, 3, 2.5", "0.95, 0.98, 0.9", 0.7f)),
-      "", kPinhole);
+  const std::string lit = scene(R"(<emitter type="constant"><rgb name="radiance" value="1, 2, 1.5"/></emitter>)" +
+                                    glass("0, 0, 0.8", 1.1f, medium("interior", "2, 3, 2.5", "0.95, 0.98, 0.9", 0.7f)),
+                                "", kPinhole);
   const PathSettings path{.min_scattering = 3};
   TableSettings table = settings_for_tests();
   const auto by = [&](const TableSettings& settings, uint32_t samples, double brightness = 1) {
@@ -146,16 +155,16 @@ TEST(TableLight, MeasuredLeavesAsMuchAsWalksBring) {
                                                    settings, EnteringLightsSettings{.lights = 20'000}),
                       samples, 1, brightness);
   };
-  const Observation truth = by({}, 192);
+  const Observation truth = by({}, 128);
   const auto ratio = [&](const Observation& other) {
     const Agreement agreement = compare(truth, other);
     EXPECT_LT(agreement.ratio_error[0], 0.02) << agreement.report();
     return agreement.mean_ratio[0];
   };
-  EXPECT_GT(std::abs(ratio(by(table, 64)) - 1), 0.15);
+  EXPECT_GT(std::abs(ratio(by(table, 32)) - 1), 0.15);
   table.measured = true;
-  EXPECT_NEAR(ratio(by(table, 64)), 1, 0.05);
-  EXPECT_GT(std::abs(ratio(by(table, 64, 0.88)) - 1), 0.05) << "a brightness of 0.88 is not noticed";
+  EXPECT_NEAR(ratio(by(table, 32)), 1, 0.05);
+  EXPECT_GT(std::abs(ratio(by(table, 32, 0.88)) - 1), 0.05) << "a brightness of 0.88 is not noticed";
 }
 
 // What the table does not have, it does not touch: in whatever way a method makes paths, their visits are counted.

@@ -150,7 +150,8 @@ TEST(LightSources, AimedRaysBringTheSameLight) {
       R"(<emitter type="spot"><float name="cutoff_angle" value="40"/>)" + turned + "</emitter>",
       R"(<emitter type="constant"><rgb name="radiance" value="0.3"/></emitter>)",
       R"(<emitter type="directional"><vector name="direction" x="-1" y="-1" z="-1"/></emitter>)",
-      R"(<shape type="rectangle">)" + turned + R"(<emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>)"};
+      R"(<shape type="rectangle">)" + turned +
+          R"(<emitter type="area"><rgb name="radiance" value="1"/></emitter></shape>)"};
   std::string all;
   for (const std::string& kind : kinds) all += kind;
   for (const std::string& lights : {kinds[0], kinds[1], kinds[2], kinds[3], kinds[4], all}) {

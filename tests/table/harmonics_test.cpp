@@ -3,13 +3,14 @@
 #include <numbers>
 
 #include "core/gauss_legendre.h"
+#include "core/rng.h"
+#include "core/warp.h"
 #include "table/sagittal_harmonics.h"
 #include "table/sagittal_view.h"
 
 namespace turbid {
 namespace {
 
-using Lanes = SagittalHarmonics::Lanes;
 constexpr int kDegree = SagittalHarmonics::kMaxDegree;
 constexpr size_t kOrders = SagittalHarmonics::kOrders;
 
@@ -74,6 +75,26 @@ TEST(SagittalView, HasTheAxisInItsPlane) {
               dot(w, axis), 1e-6f);
   EXPECT_NEAR(length(view.direction), 1, 1e-6f);
   EXPECT_EQ(SagittalView(axis * 2.0f, axis, w).direction.x, 0);
+}
+
+// Any number of directions, in groups or not, is the sum of each by itself.
+TEST(SagittalHarmonics, OfManyDirectionsAddUp) {
+  Rng rng(5);
+  for (const int degree : {0, 3, kDegree})
+    for (const size_t count : {1u, 4u, 6u, 11u}) {
+      const size_t size = (static_cast<size_t>(degree) + 1) * kOrders;
+      std::vector<Vec3> directions;
+      std::vector<double> expected(size, 1);
+      for (size_t i = 0; i < count; ++i) {
+        const float u = rng.next_float();
+        directions.push_back(square_to_sphere({u, rng.next_float()}));
+        const std::vector<double> y = values(directions.back());
+        for (size_t k = 0; k < size; ++k) expected[k] += y[k];
+      }
+      std::vector<float> sums(size, 1.0f);
+      SagittalHarmonics::add_to(sums.data(), degree, directions);
+      for (size_t k = 0; k < size; ++k) EXPECT_NEAR(static_cast<double>(sums[k]), expected[k], 1e-5) << k;
+    }
 }
 
 }  // namespace

@@ -137,5 +137,20 @@ TEST(MultipleScattering, SensorRaysAreIntegrals) {
     }
 }
 
+// Any number of points, in eights or not; several lights at once.
+TEST(MultipleScattering, SensorRaysOfMorePointsAreTheSame) {
+  const float sigma_t = 2;
+  const MultipleScattering light(medium(Spectrum(sigma_t), 0.9f, 0.7f), small_table(0.7f));
+  const Stretch view{{0.5f, -1, 0.2f}, {0, 1, 0}, 3};
+  const Stretch one{{0, 0, 0}, {0, 0, 1}, 1}, two{{0.1f, 0, 0.4f}, {1, 0, 0}, 0.3f};
+  const std::array<WeightedStretch, 2> both{{{one, 1}, {two, -0.2f}}};
+  for (const int samples : {1, 3, 6}) {
+    const auto [mean, rms] = view_error(
+        view, sigma_t, [&](float u) { return light.radiance(both, view, u, samples)[0]; },
+        [&](const Vec3& x) { return light.source_radiance(both, x, -view.direction)[0]; });
+    EXPECT_NEAR(mean, 1, 0.01) << samples;
+  }
+}
+
 }  // namespace
 }  // namespace turbid::testing
