@@ -60,8 +60,8 @@ class EnteringLights {
   std::vector<Group> groups_;
 };
 
-/// How many light paths make about so many entering lights (0: two for each pixel, which all samples of a set share);
-/// found by a pilot that depends on the plan alone.
+/// How many light paths make about so many entering lights (0: four for each pixel, which all samples of a set share),
+/// at least 32,000 where the tables' light is measured; found by a pilot that depends on the plan alone.
 size_t paths_for_entering_lights(const EnteringLightsPlan& plan, size_t lights);
 
 /// The sets of a render, one after the other: samples of all pixels share a set, named by seed and number.
