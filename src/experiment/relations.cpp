@@ -16,8 +16,11 @@ Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 
 std::string cell(const AgainstBaseline& against) {
   if (!against.factor) return "not reached";
-  std::string text = with_error(*against.factor) + " ×";
-  if (against.is_lost_in_reference) text += " (about: below the reference's error)";
+  // One that is as unsure as it is large says nothing.
+  const bool known = against.factor->value > against.factor->error;
+  std::string text = known ? with_error(*against.factor) + " ×" : "not known";
+  if (against.is_lost_in_reference)
+    text += known ? " (about: below the reference's error)" : " (below the reference's error)";
   // A factor says nothing of light that is missing.
   constexpr double kMuch = 0.05;
   if (std::abs(against.mean_ratio - 1) > kMuch) text += fmt::format(", mean {:.2f}", against.mean_ratio);

@@ -114,6 +114,14 @@ TEST(Relations, SayHowMuchLessTimeThanTheBaseline) {
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_NE(std::get<std::string>(table.rows[0][1]).find("(about: below the reference's error)"), std::string::npos);
   EXPECT_TRUE(std::get<std::string>(table.rows[1][1]).ends_with(" ×, mean 0.90"));
+  Estimate& cost = result.scenes[0].methods[1].score.cost;
+  const Estimate before = cost;
+  for (const Estimate& lost : {Estimate{-0.001, 0.05}, Estimate{0.01, 0.05}}) {
+    cost = lost;
+    EXPECT_TRUE(std::get<std::string>(report_of(result, {}).overview.at(0).rows[0][1])
+                    .starts_with("not known (below the reference's error)"));
+  }
+  cost = before;
   result.rule.equal = EqualBy::kSamples;
   EXPECT_NEAR(against_baseline(result)[0].factor->value, 2, 0.05) << "the error itself";
   EXPECT_EQ(to_json(result, {}).at("against_baseline").size(), 2u);
