@@ -105,7 +105,7 @@ EnteringLights::EnteringLights(const EnteringLightsPlan& plan, size_t paths, uin
 
 LightBalance EnteringLights::balance_light(const Scene& scene, const Medium& medium,
                                            std::span<const EnteringLightKeeper::Left> left, uint64_t seed) const {
-  constexpr size_t kLeavingPerCell = 16;
+  constexpr size_t kLeavingPerCell = 64;
   Bounds3 box;
   std::set<SurfaceSide> sides;
   std::vector<LeavingPower> leaving;

@@ -9,13 +9,12 @@ namespace {
 /// What is known of a node counts like so many independent samples when the larger part around it is asked, too.
 constexpr double kPrior = 16;
 
-/// Of samples' values, and of their squares.
+/// Of samples, and how many they are: strong and weak ones count alike, for else strong ones would lose to what is said
+/// of larger parts.
 struct Sums {
-  double first = 0, second = 0;
-  void add(double weight, double value) { first += weight * value, second += weight * value * value; }
-  void add(double weight, const Sums& other) { first += weight * other.first, second += weight * other.second; }
-  /// As many equal values tell as much.
-  double count() const { return second > 0 ? first * first / second : 0; }
+  double value = 0, count = 0;
+  void add(double weight, double one) { value += weight * one, count += weight; }
+  void add(double weight, const Sums& other) { value += weight * other.value, count += weight * other.count; }
 };
 /// What leaves, and what is predicted.
 struct Pair {
@@ -24,9 +23,9 @@ struct Pair {
     leaving.add(weight, other.leaving);
     predicted.add(weight, other.predicted);
   }
-  bool tells() const { return leaving.first > 0 && predicted.first > 0; }
-  double ratio() const { return leaving.first / predicted.first; }
-  double count() const { return 1 / (1 / leaving.count() + 1 / predicted.count()); }
+  bool tells() const { return leaving.value > 0 && predicted.value > 0; }
+  double ratio() const { return leaving.value / predicted.value; }
+  double count() const { return 1 / (1 / leaving.count + 1 / predicted.count); }
 };
 size_t node_index(const std::array<int, 3>& cells, int x, int y, int z) {
   return static_cast<size_t>((z * (cells[1] + 1) + y) * (cells[0] + 1) + x);
