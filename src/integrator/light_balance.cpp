@@ -9,8 +9,7 @@ namespace {
 /// What is known of a node counts like so many independent samples when the larger part around it is asked, too.
 constexpr double kPrior = 16;
 
-/// Of samples, and how many they are: strong and weak ones count alike, for else strong ones would lose to what is said
-/// of larger parts.
+/// Of samples, and how many they are.
 struct Sums {
   double value = 0, count = 0;
   void add(double weight, double one) { value += weight * one, count += weight; }
@@ -25,7 +24,6 @@ struct Pair {
   }
   bool tells() const { return leaving.value > 0 && predicted.value > 0; }
   double ratio() const { return leaving.value / predicted.value; }
-  double count() const { return 1 / (1 / leaving.count + 1 / predicted.count); }
 };
 size_t node_index(const std::array<int, 3>& cells, int x, int y, int z) {
   return static_cast<size_t>((z * (cells[1] + 1) + y) * (cells[0] + 1) + x);
@@ -53,6 +51,17 @@ void for_coarser_nodes(const std::array<int, 3>& cells, const Share& share) {
             share(node_index(cells, x, y, z), node_index(coarser, x / 2 + side[0], y / 2 + side[1], z / 2 + side[2]),
                   weight);
         }
+}
+
+/// How many equal samples tell as much, over how many there are. One number for all: were it that of a node, nodes with
+/// a strong sample would trust it less than others trust their weak ones, and light would be lost.
+double evenness(std::span<const LeavingPower> all, int channel) {
+  double sum = 0, squares = 0;
+  for (const LeavingPower& light : all) {
+    const auto power = static_cast<double>(light.power[channel]);
+    sum += power, squares += power * power;
+  }
+  return squares > 0 ? sum * sum / squares / static_cast<double>(all.size()) : 1;
 }
 
 }  // namespace
@@ -137,7 +146,10 @@ void LightBalance::refine(std::span<const LeavingPower> leaving, std::span<const
   }
 
   Spectrum whole(1.0f);
+  std::array<double, kChannels> even_leaving, even_predicted;
   for (size_t c = 0; c < kChannels; ++c) {
+    even_leaving[c] = evenness(leaving, static_cast<int>(c));
+    even_predicted[c] = evenness(predicted, static_cast<int>(c));
     Pair all;
     for (const Level::Node& node : levels.back().nodes)
       for (const auto& direction : node) all.add(1, direction[c]);
@@ -162,7 +174,8 @@ void LightBalance::refine(std::span<const LeavingPower> leaving, std::span<const
           const Pair& pair = level.nodes[n][d][c];
           if (!pair.tells()) continue;
           float& factor = factors[n][d][static_cast<int>(c)];
-          const double count = pair.count();
+          const double count =
+              1 / (1 / (even_leaving[c] * pair.leaving.count) + 1 / (even_predicted[c] * pair.predicted.count));
           factor = static_cast<float>((count * pair.ratio() + kPrior * static_cast<double>(factor)) / (count + kPrior));
         }
   }
