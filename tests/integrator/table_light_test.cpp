@@ -130,7 +130,7 @@ TEST(TableLight, IntegratorsAgreeOnIt) {
 }
 
 // So they do where it is weighed by what leaves; each has sets of its own for that.
-TEST(TableLight, SlowIntegratorsAgreeOnWhatIsMeasured) {
+TEST(SlowTableLight, IntegratorsAgreeOnWhatIsMeasured) {
   TableSettings table = settings_for_tests();
   table.measured = true;
   const PathSettings path{.min_scattering = 3};
