@@ -76,9 +76,11 @@ std::optional<EmissionSample> LightSources::aim(const Source& source, const Ball
                                                 const Vec2& u) const {
   EmissionSample aimed = ray;
   if (source.emitter->is_at_infinity()) {
-    // As far back as the light's own rays begin.
-    const Vec3 through = start_from_infinity(target.center, target.radius, ray.direction, u);
-    aimed.origin = through + ray.direction * std::min(0.0f, dot(ray.origin - through, ray.direction) - scene_.radius());
+    // Back to the sphere that the light's own rays begin on: media that fill the world end there.
+    const Vec3 through = start_from_infinity(target.center, target.radius, ray.direction, u) - scene_.center();
+    const float along = dot(through, ray.direction), radius2 = 1 / (kPi * ray.pdf.pdf_a);
+    aimed.origin = scene_.center() + through -
+                   ray.direction * (along + safe_sqrt(along * along + radius2 - length_squared(through)));
     return aimed;
   }
   const float cosine = cosine_of(target, ray.origin);

@@ -115,30 +115,28 @@ TEST(TableLight, ModeSeedIsNearTheExactTable) {
   EXPECT_GT(std::abs(ratio(0.9) - 1), 0.05) << "a brightness of 0.9 is not noticed";
 }
 
-// What the table stands for, all find alike.
-TEST(TableLight, IntegratorsAgreeOnIt) {
-  for (const bool images : {false, true}) {
-    TableSettings table = settings_for_tests();
-    table.images = images;
-    const PathSettings path{.min_scattering = 3};
-    const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 6, 1);
-    expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2), 0.01);
-    expect_same_light("volpath", vrl, observe_by(bright_ball(false), make_volpath(path, table), 128, 3), 0.03);
-    expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2, 1.05),
-                      0.01, false);
-  }
-}
-
-// So they do where it is weighed by what leaves; each has sets of its own for that.
-TEST(SlowTableLight, IntegratorsAgreeOnWhatIsMeasured) {
-  TableSettings table = settings_for_tests();
-  table.measured = true;
+void expect_integrators_agree(const TableSettings& table) {
   const PathSettings path{.min_scattering = 3};
   const Observation vrl = observe_by(bright_ball(false), make_vrl(path, table), 6, 1);
   expect_same_light("upbp", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2), 0.01);
   expect_same_light("volpath", vrl, observe_by(bright_ball(false), make_volpath(path, table), 128, 3), 0.03);
   expect_same_light("a brightness of 1.05", vrl, observe_by(bright_ball(false), make_upbp(path, table), 24, 2, 1.05),
                     0.01, false);
+}
+
+// What the table stands for, all find alike.
+TEST(TableLight, IntegratorsAgreeOnIt) {
+  TableSettings table = settings_for_tests();
+  expect_integrators_agree(table);
+  table.images = true;
+  expect_integrators_agree(table);
+}
+
+// So they do where it is weighed by what leaves; each has sets of its own for that.
+TEST(SlowTableLight, IntegratorsAgreeOnWhatIsMeasured) {
+  TableSettings table = settings_for_tests();
+  table.measured = true;
+  expect_integrators_agree(table);
 }
 
 // A thin ball that reflects inside, in even light from all sides: measured, it shines as walks say, where the table

@@ -167,6 +167,34 @@ TEST(LightSources, AimedRaysBringTheSameLight) {
   }
 }
 
+// Rays from infinity begin where media that fill the world end, aimed or not: further back they would lose light there.
+TEST(LightSources, AimedRaysFromInfinityBeginWhereOthersDo) {
+  const std::string fog = R"(<medium type="homogeneous" name="medium"><float name="sigma_t" value="0.1"/></medium>)";
+  for (const std::string kind :
+       {R"(<emitter type="constant"/>)",
+        R"(<emitter type="directional"><vector name="direction" x="-1" y="-1" z="-1"/></emitter>)"}) {
+    const Scene scene = Scene(load_scene_from_string("<scene version=\"3.0.0\"><sensor type=\"perspective\">" + fog +
+                                                         "</sensor>" + kind + fog_ball(1) + "</scene>",
+                                                     "test scene")
+                                  .parts);
+    const auto starts_at = [&](const std::vector<Ball>& targets) {
+      const LightSources sources(scene, true, targets);
+      Sampler sampler(SamplerKind::kIndependent, 1);
+      std::pair<float, float> range{kInfinity, 0};
+      for (uint64_t i = 0; i < 1000; ++i) {
+        sampler.start(i, 0);
+        const float distance = length(sources.sample(sampler)->ray.origin - scene.center());
+        range = {std::min(range.first, distance), std::max(range.second, distance)};
+      }
+      return range;
+    };
+    const auto plain = starts_at({}), aimed = starts_at({{{0.3f, 1, 0}, 0.5f}});
+    EXPECT_GT(plain.first, 2 * scene.radius()) << "the world is larger than its shapes";
+    EXPECT_NEAR(aimed.first / plain.first, 1, 1e-3f) << kind;
+    EXPECT_NEAR(aimed.second / plain.second, 1, 1e-3f) << kind;
+  }
+}
+
 TEST(LightSources, KnowTheMediumThatTheyStandIn) {
   Sampler sampler(SamplerKind::kIndependent, 2);
   const auto medium_of_start = [&](const Scene& scene) {
